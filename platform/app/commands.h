@@ -1,0 +1,10 @@
+// One line a command: each adds its words to the command line and, when chosen, sets what main will run.
+#pragma once
+
+#include "command.h"
+
+namespace dicot::app {
+
+void add_match(CLI::App& program, Command& chosen);
+
+} // namespace dicot::app

@@ -1,0 +1,34 @@
+#include "commands.h"
+
+#include <cstdio>
+
+namespace {
+
+constexpr const char* kFooter = "Exit codes follow sysexits(3): 0 done, 64 usage, 65 bad data, 66 no input, 69 unavailable, "
+                                "70 fault of dicot, 71 system refused,\n73 cannot create, 74 I/O error, 75 try again, 78 configuration.";
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    using namespace dicot;
+    CLI::App program{"dicot: two webcams beside the plants, and a compressed 3D cloud of them."};
+    program.set_version_flag("--version", "dicot " DICOT_VERSION);
+    program.footer(kFooter);
+    program.require_subcommand(1);
+
+    app::Command chosen;
+    app::add_match(program, chosen);
+
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        const bool asked_for = error.get_exit_code() == 0; // --help, --version
+        program.exit(error);
+        return asked_for ? 0 : static_cast<int>(Fault::kUsage);
+    }
+    const Status status = chosen();
+    if (!status.ok())
+        std::fprintf(stderr, "dicot: %s\n", status.message());
+    return status.exit_code();
+}

@@ -1,0 +1,74 @@
+#include "dicot/base/arena.h"
+#include "dicot/base/cloud.h"
+#include "dicot/base/disparity.h"
+#include "dicot/base/exact_math.h"
+#include "dicot/base/status.h"
+#include "dicot/base/work.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace dicot {
+namespace {
+
+TEST(ExactMath, ExpAgreesWithTheLibraryTo14Digits)
+{
+    for (double x = -40.0; x <= 40.0; x += 0.037)
+        EXPECT_NEAR(exact_exp(x) / std::exp(x), 1.0, 1e-14) << x;
+}
+
+TEST(ExactMath, RootsAgreeWithTheLibraryTo14Digits)
+{
+    for (int n = 2; n <= 5; ++n)
+        for (double x = 1e-6; x < 5000; x *= 1.37)
+            EXPECT_NEAR(exact_root(x, n) / std::pow(x, 1.0 / n), 1.0, 1e-14) << x << " root " << n;
+    EXPECT_EQ(exact_root(0.0, 3), 0.0);
+}
+
+TEST(Arena, MeasuringArenaAsksForExactlyWhatARealOneGives)
+{
+    const auto lay_out = [](Arena& arena) {
+        (void)arena.take<std::uint8_t>(3);
+        (void)arena.take<std::uint32_t>(1000);
+    };
+    Arena measure;
+    lay_out(measure);
+    EXPECT_TRUE(measure.measuring());
+
+    alignas(Arena::kAlignment) std::array<std::byte, 8192> block{};
+    Arena exact(std::span(block).first(measure.peak()));
+    lay_out(exact);
+    EXPECT_FALSE(exact.overrun());
+    Arena small(std::span(block).first(measure.peak() - 1));
+    lay_out(small);
+    EXPECT_TRUE(small.overrun());
+}
+
+Status fails() { return failure(Fault::kNoInput, "%s: no such file", "left.png"); }
+Result<int> doubled(Result<int> input)
+{
+    const int value = TRY(std::move(input));
+    return 2 * value;
+}
+
+TEST(Status, TryPassesTheValueOnAndTheFaultUp)
+{
+    EXPECT_EQ(doubled(21).value(), 42);
+    const Result<int> failed = doubled(fails());
+    EXPECT_FALSE(failed.ok());
+    EXPECT_EQ(failed.status().exit_code(), 66);
+    EXPECT_STREQ(failed.status().message(), "left.png: no such file");
+}
+
+TEST(Crew, AloneRunsEveryTaskOnceInOrder)
+{
+    Alone crew;
+    int order = 0;
+    crew.run(5, [&](int index) { EXPECT_EQ(index, order++); });
+    EXPECT_EQ(order, 5);
+}
+
+} // namespace
+} // namespace dicot

@@ -1,0 +1,21 @@
+# What every target of dicot is compiled with.
+add_library(dicot_compiler INTERFACE)
+target_compile_options(dicot_compiler INTERFACE
+  -Wall -Wextra -Wpedantic -Werror -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
+  -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align -Wimplicit-fallthrough
+  -Wno-psabi
+  # A product and a sum stay two roundings on every CPU: aarch64 would otherwise fuse them, and the bytes would differ.
+  -ffp-contract=off
+  -fno-strict-aliasing
+  $<$<CONFIG:Release>:-O2>)
+# clang 14 spells the statement expression of TRY as an extension even behind __extension__ in macros.
+target_compile_options(dicot_compiler INTERFACE
+  $<$<CXX_COMPILER_ID:Clang>:-Wno-gnu-statement-expression>)
+
+if(DICOT_SANITIZE)
+  add_compile_options(-fsanitize=${DICOT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${DICOT_SANITIZE})
+endif()
+if(DICOT_FUZZ)
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()

@@ -1,0 +1,16 @@
+# Every third party of the house, found once; whose door each one has is written in DicotRooms.cmake.
+find_package(Threads REQUIRED)
+find_package(PNG REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(libjpeg REQUIRED IMPORTED_TARGET libjpeg)
+pkg_check_modules(yaml REQUIRED IMPORTED_TARGET yaml-0.1)
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(Eigen3 REQUIRED NO_MODULE)
+
+# Draco's own CMake files name paths of the machine that packaged it.
+find_path(DRACO_INCLUDE_DIR draco/compression/encode.h REQUIRED)
+find_library(DRACO_LIBRARY NAMES libdraco.a draco REQUIRED)
+add_library(dicot_draco INTERFACE)
+target_include_directories(dicot_draco SYSTEM INTERFACE "${DRACO_INCLUDE_DIR}")
+target_link_libraries(dicot_draco INTERFACE "${DRACO_LIBRARY}")
