@@ -38,10 +38,10 @@ TEST(Arena, MeasuringArenaAsksForExactlyWhatARealOneGives)
     EXPECT_TRUE(measure.measuring());
 
     alignas(Arena::kAlignment) std::array<std::byte, 8192> block{};
-    Arena exact(std::span(block).first(measure.peak()));
+    Arena exact{std::span<std::byte>{block}.first(measure.peak())};
     lay_out(exact);
     EXPECT_FALSE(exact.overrun());
-    Arena small(std::span(block).first(measure.peak() - 1));
+    Arena small{std::span<std::byte>{block}.first(measure.peak() - 1)};
     lay_out(small);
     EXPECT_TRUE(small.overrun());
 }
