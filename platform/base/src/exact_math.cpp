@@ -4,18 +4,20 @@ namespace dicot {
 
 double exact_exp(double x) noexcept
 {
-    // Halve until the Taylor series converges at once, then square back: 2^-10 * 700 < 0.7.
-    constexpr int kHalvings = 10;
-    const double small = x / (1 << kHalvings);
-    double term = 1.0;
-    double sum = 0.0; // e^small - 1, to keep the digits that adding 1 would drop
-    for (int k = 1; k <= 24; ++k) {
-        term = term * small / k;
-        sum += term;
-    }
-    for (int i = 0; i < kHalvings; ++i)
-        sum = sum * (sum + 2.0); // (1 + s)^2 - 1
-    return 1.0 + sum;
+    // x = k ln 2 + r with |r| < 0.35; ln 2 in two parts, of which k times the first is exact.
+    constexpr double kLn2High = 0x1.62e42feep-1;
+    constexpr double kLn2Low = 0x1.a39ef35793c76p-33;
+    const int k = static_cast<int>(x / (kLn2High + kLn2Low) + (x < 0 ? -0.5 : 0.5));
+    const double r = (x - k * kLn2High) - k * kLn2Low;
+    double sum = 0.0;
+    for (int i = 18; i >= 1; --i)
+        sum = (sum + 1.0) * r / i;
+    double value = 1.0 + sum;
+    for (int i = 0; i < k; ++i)
+        value *= 2.0;
+    for (int i = 0; i > k; --i)
+        value *= 0.5;
+    return value;
 }
 
 double exact_root(double x, int n) noexcept
