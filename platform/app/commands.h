@@ -5,6 +5,8 @@
 
 namespace dicot::app {
 
+void add_bench(CLI::App& program, Command& chosen);
 void add_match(CLI::App& program, Command& chosen);
+void add_memory(CLI::App& program, Command& chosen);
 
 } // namespace dicot::app

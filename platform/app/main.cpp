@@ -18,7 +18,9 @@ int main(int argc, char** argv)
     program.require_subcommand(1);
 
     app::Command chosen;
+    app::add_bench(program, chosen);
     app::add_match(program, chosen);
+    app::add_memory(program, chosen);
 
     try {
         program.parse(argc, argv);
