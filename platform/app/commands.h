@@ -8,5 +8,6 @@ namespace dicot::app {
 void add_bench(CLI::App& program, Command& chosen);
 void add_match(CLI::App& program, Command& chosen);
 void add_memory(CLI::App& program, Command& chosen);
+void add_selftest(CLI::App& program, Command& chosen);
 
 } // namespace dicot::app

@@ -21,6 +21,7 @@ int main(int argc, char** argv)
     app::add_bench(program, chosen);
     app::add_match(program, chosen);
     app::add_memory(program, chosen);
+    app::add_selftest(program, chosen);
 
     try {
         program.parse(argc, argv);

@@ -44,11 +44,8 @@ mmdebstrap --quiet --variant=extract --architectures="$arch" --include="$package
 chmod 755 "$fresh"
 
 # Absolute links would lead out of the sysroot into the machine itself.
-find "$fresh/usr/lib" "$fresh/lib/" -type l -lname '/*' | while read -r link; do
-    ln -snf "$fresh$(readlink "$link")" "$link.inside"
-    target=$(realpath --relative-to="$(dirname "$link")" "$fresh$(readlink "$link")" 2>/dev/null || true)
-    rm -f "$link.inside"
-    [ -n "$target" ] && ln -snf "$target" "$link"
+find "$fresh" -type l -lname '/*' | while read -r link; do
+    ln -snf "$(realpath -m --relative-to="$(dirname "$link")" "$fresh$(readlink "$link")")" "$link"
 done
 printf '%s\n' "$recipe" > "$fresh/recipe"
 rm -rf "$sysroot"

@@ -8,7 +8,7 @@ namespace {
 struct Shape
 {
     int columns, pixels, disparities;
-    int left_gap, right_gap; // words between the end of a row and the next one
+    int left_gap = 0, right_gap = 0; // words between the end of a row and the next one
 };
 
 struct Call

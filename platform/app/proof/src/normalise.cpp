@@ -49,8 +49,8 @@ void work(const Kernels& tested, Stand& stand, Verdict& verdict)
         {4294967294, 2147483647, 512},    // 2 * (2^31 - 1), exactly
         {4294967293, 2147483647, 511},    // and one less
         {4294967295, 21474837, 51199},    // 21474837 * 200 = 2^32 + 104: just below the largest
-        {3355377064, 16777213, 51199},    // 16777213 * 51199 = 256 * 3355377063 + 59: the first that reaches it ...
-        {3355377063, 16777213, 51198},    // ... and the last that does not
+        {3355377065, 16777213, 51199},    // 16777213 * 51199 = 256 * 3355377064 + 3: the first that reaches it ...
+        {3355377064, 16777213, 51198},    // ... and the last that does not
     };
     for (const Vector& vector : kVectors) {
         constexpr int kCount = 7; // more than a vector, and some left over
