@@ -78,7 +78,9 @@ TEST_F(OutputFileTest, ReplacedFileKeepsItsPermissionsAndALinkStaysALink)
     ASSERT_TRUE(file_.commit().ok());
     EXPECT_TRUE(std::filesystem::is_symlink(link));
     EXPECT_EQ(test::bytes_of(real), (test::Bytes{'n', 'e', 'w'}));
-    struct stat what{};
+    struct stat what
+    {
+    };
     ASSERT_EQ(::stat(real.c_str(), &what), 0);
     EXPECT_EQ(what.st_mode & 0777U, 0640U);
 }
@@ -234,7 +236,8 @@ TEST(MemoryBlock, IsZeroedPageAlignedAndAsLargeAsAsked)
     ASSERT_TRUE(block.ok());
     const std::span<std::byte> bytes = block.value().bytes();
     EXPECT_EQ(bytes.size(), 100'001U);
-    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(bytes.data()) % static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE)), 0U);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(bytes.data()) % static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE)),
+              0U);
     for (std::byte& byte : bytes) {
         ASSERT_EQ(byte, std::byte{0});
         byte = std::byte{0xA5};

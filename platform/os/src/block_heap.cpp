@@ -14,7 +14,7 @@ struct BlockHeap::Block
     std::uint32_t previous_units; ///< of the left neighbour; 0 for the first block
     std::uint32_t stamp;          ///< 0 while free
     std::uint32_t unused;
-    Block* next_free;     ///< these two lie in the caller's bytes while the block is in use
+    Block* next_free; ///< these two lie in the caller's bytes while the block is in use
     Block* previous_free;
 
     std::byte* start() noexcept { return reinterpret_cast<std::byte*>(this); }
@@ -102,7 +102,8 @@ BlockHeap::Block* BlockHeap::find(std::uint32_t units) noexcept
 {
     // Every block of a bin at or above the one of the rounded-up size is large enough.
     const std::uint32_t step = units < 8 ? 1 : std::uint32_t{1} << (std::bit_width(units) - 4);
-    const std::size_t first = units > std::numeric_limits<std::uint32_t>::max() - step ? kBins : bin_of(units + step - 1);
+    const std::size_t first =
+        units > std::numeric_limits<std::uint32_t>::max() - step ? kBins : bin_of(units + step - 1);
     for (std::size_t word = first / 64; first < kBins && word < occupied_.size(); ++word) {
         const std::uint64_t mask = word == first / 64 ? ~std::uint64_t{0} << (first % 64) : ~std::uint64_t{0};
         if (const std::uint64_t found = occupied_[word] & mask; found != 0)
