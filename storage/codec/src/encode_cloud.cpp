@@ -55,7 +55,7 @@ int add_attribute(draco::PointCloud& cloud, draco::GeometryAttribute::Type type,
                   bool normalised)
 {
     draco::GeometryAttribute attribute;
-    attribute.Init(type, nullptr, static_cast<std::int8_t>(components), data, normalised,
+    attribute.Init(type, nullptr, static_cast<std::uint8_t>(components), data, normalised,
                    components * draco::DataTypeLength(data), 0);
     return cloud.AddAttribute(attribute, true, cloud.num_points());
 }
