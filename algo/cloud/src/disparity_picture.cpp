@@ -10,6 +10,7 @@ namespace {
 
 constexpr Rgb8 kMissing{40, 40, 44};
 constexpr int kColours = 256;
+constexpr double kDarkestBlue = 0.06; // below it turbo is nearly as dark as a missing pixel
 
 /// The polynomial approximation of the turbo map (A. Mikhailov, 2019), t in 0..1.
 Rgb8 turbo(double t)
@@ -60,7 +61,7 @@ void paint_disparities(const DisparityMap& map, ImageView<Rgb8> into)
     assert(into.width == map.relative.width && into.height == map.relative.height);
     std::array<Rgb8, kColours> colours;
     for (int i = 0; i < kColours; ++i)
-        colours[static_cast<std::size_t>(i)] = turbo(i / (kColours - 1.0));
+        colours[static_cast<std::size_t>(i)] = turbo(kDarkestBlue + (1 - kDarkestBlue) * i / (kColours - 1));
     const Span span = middle_98_percent(map.relative);
     const int least = span.least << kDispFractionBits;
     const int width = std::max(1, (span.most << kDispFractionBits) - least);
