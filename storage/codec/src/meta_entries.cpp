@@ -78,6 +78,13 @@ bool origin_of(std::string_view text, CloudGrid& grid)
     return true;
 }
 
+CloudMeta::Text step_text(const CloudGrid& grid)
+{
+    char digits[32];
+    const auto end = std::to_chars(digits, digits + sizeof digits, grid.step_um / 1e6, std::chars_format::fixed);
+    return std::string_view{digits, static_cast<std::size_t>(end.ptr - digits)};
+}
+
 bool step_of(std::string_view text, CloudGrid& grid)
 {
     double metres = 0;
@@ -100,7 +107,7 @@ MetaEntries entries_of(const CloudMeta& meta, const CloudGrid& grid)
     };
     add("unit", kCloudUnit);
     add("frame", kCloudFrame);
-    add("quantization_step", text_of(grid.step_um * 1e-6));
+    add("quantization_step", step_text(grid));
     add("grid_bits", text_of(grid.bits));
     add("grid_origin", origin_text(grid));
     add("captured_at", meta.captured_at);
