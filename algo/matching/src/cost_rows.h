@@ -33,7 +33,7 @@ struct Scene
 };
 
 /// The aggregated costs of one row: [width][axis], index r = axis - 1 - d; kNoCandidate where there is no partner.
-using AggregatedRow = std::span<const std::uint16_t>;
+using AggregatedRow = std::span<std::uint16_t>;
 
 /// One worker's tables: a ring of raw costs as high as the window, and the support weights of a strip of pixels.
 class CostRows

@@ -4,6 +4,7 @@
 #include "lab.h"
 #include "planes.h"
 #include "refine.h"
+#include "scanline.h"
 #include "select.h"
 #include "tables.h"
 
@@ -18,6 +19,7 @@ namespace matching {
 struct Station
 {
     CostRows costs;
+    ScanlinePass scanline;
     Selector selector;
     MatchTimes times;
 };
@@ -59,6 +61,8 @@ void lay_out(Bench& bench, Arena& arena, const MatchOptions& options, int worker
         Station measured;
         Station& station = arena.measuring() ? measured : bench.stations[static_cast<std::size_t>(i)];
         station.costs.lay_out(arena, scene);
+        if (options.method != MatchMethod::kPaper)
+            station.scanline.lay_out(arena, scene);
         station.selector.lay_out(arena, scene);
     }
 }
@@ -179,6 +183,8 @@ MatchOutcome Matcher::match(ImageView<const Rgb8> left, ImageView<const Rgb8> ri
             for (int y = top; y < std::min(top + band_rows, scene.height); ++y) {
                 const AggregatedRow costs = station.costs.row(scene, y, station.times, hooks.now_ns);
                 const std::uint64_t since = clock();
+                if (check_both_ways)
+                    station.scanline.smooth(scene, y, costs);
                 const auto width = static_cast<std::size_t>(scene.width);
                 SelectedRow row{{bench.maps.disparity.row(y), width},
                                 {bench.maps.confidence.row(y), width},

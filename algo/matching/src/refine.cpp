@@ -11,7 +11,7 @@ namespace {
 /// Half the side of the window in which a filled pixel asks its neighbours.
 constexpr int kVoteRadius = 17;
 
-void fill_row(std::span<DispQ8> disparity, std::span<const Verdict> verdict)
+void fill_row(std::span<DispQ8> disparity, std::span<Verdict> verdict)
 {
     const auto width = disparity.size();
     // Two sweeps: the nearest matched value from the left, then the smaller of it and the nearest one from the right.
@@ -24,10 +24,13 @@ void fill_row(std::span<DispQ8> disparity, std::span<const Verdict> verdict)
     }
     nearest = kDispMissing;
     for (std::size_t x = width; x-- > 0;) {
-        if (verdict[x] == Verdict::kMatched)
+        if (verdict[x] == Verdict::kMatched) {
             nearest = disparity[x];
-        else
-            disparity[x] = std::min(disparity[x], nearest); // kDispMissing is the largest value
+            continue;
+        }
+        if (nearest == kDispMissing || disparity[x] == kDispMissing)
+            verdict[x] = Verdict::kUnseen;
+        disparity[x] = std::min(disparity[x], nearest); // kDispMissing is the largest value
     }
 }
 
@@ -67,7 +70,7 @@ void median_row(ImageView<const DispQ8> from, int y, DispQ8* to)
 }
 
 /// The weighted median of the window of (x, y), to whole pixels, and the weighted mean of the values that share them.
-DispQ8 weighted_median(ImageView<const DispQ8> map, const Planes& left, const ColourWeights& weights, int x, int y)
+DispQ8 weighted_median(ImageView<const DispQ8> map, const Maps& maps, const Planes& left, const ColourWeights& weights, int x, int y)
 {
     std::array<std::uint32_t, kMaxDisparities + 2> votes{};
     std::array<std::uint64_t, kMaxDisparities + 2> sums{};
@@ -76,7 +79,11 @@ DispQ8 weighted_median(ImageView<const DispQ8> map, const Planes& left, const Co
     for (int ny = std::max(y - kVoteRadius, 0); ny <= std::min(y + kVoteRadius, map.height - 1); ++ny) {
         const LabRow row = left.lab(ny);
         for (int nx = std::max(x - kVoteRadius, 0); nx <= std::min(x + kVoteRadius, map.width - 1); ++nx) {
-            const std::uint32_t weight = weights.between(centre, x, row, nx);
+            const Verdict verdict = maps.verdict.row(ny)[nx];
+            if (verdict == Verdict::kUnseen)
+                continue;
+            // What was filled from both sides has half a vote.
+            const std::uint32_t weight = weights.between(centre, x, row, nx) >> (verdict == Verdict::kMatched ? 0 : 1);
             const DispQ8 value = map.row(ny)[nx];
             votes[value >> 8] += weight;
             sums[value >> 8] += std::uint64_t{weight} * value;
@@ -120,7 +127,7 @@ void smooth(const Maps& maps, const Planes& left, const ColourWeights& weights, 
         for (int x = 0; x < maps.disparity.width; ++x)
             maps.disparity.row(y)[x] = maps.verdict.row(y)[x] == Verdict::kMatched
                                            ? maps.scratch.row(y)[x]
-                                           : weighted_median(maps.scratch, left, weights, x, y);
+                                           : weighted_median(maps.scratch, maps, left, weights, x, y);
     });
 }
 

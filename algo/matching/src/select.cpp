@@ -6,6 +6,9 @@
 namespace dicot::matching {
 namespace {
 
+/// A checked winner must beat its best rival by this part of 255 of the rival's cost.
+constexpr int kLeastConfidence = 10;
+
 struct Winner
 {
     int disparity = -1;
@@ -94,8 +97,9 @@ void Selector::select(const Scene& scene, AggregatedRow costs, bool check, Selec
         const int rival = winner.runner_up == kNoCandidate ? winner.cost : winner.runner_up;
         to.confidence[i] = static_cast<std::uint8_t>(rival > 0 ? (rival - winner.cost) * 255 / rival : 0);
 
-        const int seen_back = check ? right_winner_[i + static_cast<std::size_t>(r)] : d;
-        to.verdict[i] = std::abs(seen_back - d) <= 1 ? Verdict::kMatched : Verdict::kMismatched;
+        const bool agreed = !check || (std::abs(right_winner_[i + static_cast<std::size_t>(r)] - d) <= 1 &&
+                                       to.confidence[i] >= kLeastConfidence);
+        to.verdict[i] = agreed ? Verdict::kMatched : Verdict::kMismatched;
     }
 }
 

@@ -11,8 +11,8 @@ namespace dicot::matching {
 /// How a pixel came to its disparity.
 enum class Verdict : std::uint8_t
 {
-    kUnseen,     ///< no partner inside the right picture
-    kMismatched, ///< the right picture's winner disagrees
+    kUnseen,     ///< no partner inside the right picture, or nothing matched on one side of it in its row
+    kMismatched, ///< the right picture's winner disagrees, or a rival is as good
     kMatched
 };
 
@@ -29,7 +29,8 @@ class Selector
 {
 public:
     void lay_out(Arena& arena, const Scene& scene);
-    /// With `check`, verdicts come from the left-right check; else every pixel with a candidate is matched.
+    /// With `check`, verdicts come from the left-right check and the rival's cost; else every pixel with a candidate is
+    /// matched.
     void select(const Scene& scene, AggregatedRow costs, bool check, SelectedRow& to);
 
 private:

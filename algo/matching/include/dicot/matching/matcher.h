@@ -32,7 +32,7 @@ struct MatchOptions
     MatchMethod method = MatchMethod::kStandard;
     MatchCost cost = MatchCost::kAdCensus;
     int window = 35;          ///< support window, px, odd, 3 .. kMaxWindow
-    double gamma_color = 7;   ///< eq. 6, CIELAB units
+    double gamma_color = 6;   ///< eq. 6, CIELAB units
     double gamma_space = 17;  ///< eq. 6, px
     bool dense = false;       ///< a value for every pixel: what fails a check is filled from its neighbours
     int band_rows = 0;        ///< rows that one worker does in one go; 0: as even as possible. Never changes the result.

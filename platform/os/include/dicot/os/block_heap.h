@@ -28,7 +28,7 @@ public:
     void release(void* block) noexcept;
 
     std::size_t used_bytes() const noexcept { return used_bytes_; } ///< now, headers included
-    /// How far into the span blocks ever reached: a span of this size would have been enough.
+    /// How far into the span blocks ever reached. A span of this size is cut differently and may be a little too small.
     std::size_t peak_bytes() const noexcept { return peak_bytes_; }
 
 private:

@@ -10,8 +10,9 @@ namespace dicot {
 
 /// While it lives, `operator new` of the thread that made it is served from `memory`, in programs that link
 /// dicot_heap_gate (elsewhere it changes nothing). Leases nest; the innermost serves. A full one throws std::bad_alloc.
-/// Blocks may be deleted by any thread, one at a time; deleting them after the lease's end does nothing. The memory
-/// must outlive the lease.
+/// Blocks may be deleted by any thread, one at a time. Deleting them after the lease's end does nothing, also when the
+/// memory is lent again, unless a living block begins at that very place. The memory must outlive the lease, and what a
+/// lease served must not be used after it.
 class LentHeap
 {
 public:
@@ -23,7 +24,7 @@ public:
     LentHeap& operator=(const LentHeap&) = delete;
     ~LentHeap();
 
-    /// A span of this size would have been enough for what was allocated so far (0 without dicot_heap_gate).
+    /// BlockHeap::peak_bytes() of this lease; 0 without dicot_heap_gate.
     std::size_t peak_bytes() const noexcept { return heap_.peak_bytes(); }
     std::size_t used_bytes() const noexcept { return heap_.used_bytes(); }
 
