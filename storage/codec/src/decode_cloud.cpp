@@ -12,7 +12,7 @@ namespace {
 
 // Measured beside the encoder's (tests/storage/codec_memory_test.cpp).
 constexpr std::size_t kDecodeBytesPerPoint = 64;
-constexpr std::size_t kDecodeBytesFixed = std::size_t{12} << 20;
+constexpr std::size_t kDecodeBytesFixed = std::size_t{8} << 20;
 
 /// The step nearest to `metres`, if it is on the grid.
 bool step_of(float metres, const CloudGrid& grid, int axis, std::int32_t& step)

@@ -19,8 +19,8 @@ namespace dicot {
 namespace {
 
 // Measured with uniformly random points, which compress worst, and rounded up (tests/storage/codec_memory_test.cpp).
-constexpr std::size_t kEncodeBytesPerPoint = 120;
-constexpr std::size_t kEncodeBytesFixed = std::size_t{12} << 20;
+constexpr std::size_t kEncodeBytesPerPoint = 116;
+constexpr std::size_t kEncodeBytesFixed = std::size_t{8} << 20;
 // Slower settings gain 0.4 % of the size, faster ones lose 0.6 %.
 constexpr int kSpeed = 5;
 constexpr int kConfidenceBits = 8;
