@@ -6,5 +6,6 @@
 namespace dicot::app {
 
 void add_match(CLI::App& program, Command& chosen);
+void add_memory(CLI::App& program, Command& chosen);
 
 } // namespace dicot::app

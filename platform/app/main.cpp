@@ -19,6 +19,7 @@ int main(int argc, char** argv)
 
     app::Command chosen;
     app::add_match(program, chosen);
+    app::add_memory(program, chosen);
 
     try {
         program.parse(argc, argv);
