@@ -19,7 +19,9 @@ Result<CloudOnDisk> CloudOnDisk::read(const char* path)
     CloudOnDisk read;
     read.outline_ = TRY(outline_of(bytes, path));
     const MemoryBlock heap = TRY(MemoryBlock::map(decode_heap_bytes(read.outline_.points)));
-    read.points_ = TRY(MemoryBlock::map(read.outline_.points * sizeof(CloudPoint)));
+    Arena measure;
+    (void)measure.take<CloudPoint>(read.outline_.points);
+    read.points_ = TRY(MemoryBlock::map(measure.peak()));
     Arena arena{read.points_.bytes()};
     const auto points = arena.take<CloudPoint>(read.outline_.points);
     TRY(decode_cloud(bytes, read.outline_, path, heap.bytes(), points));

@@ -19,6 +19,9 @@ int main(int argc, char** argv)
 
     app::Command chosen;
     app::add_match(program, chosen);
+    app::add_process(program, chosen);
+    app::add_export(program, chosen);
+    app::add_info(program, chosen);
     app::add_memory(program, chosen);
 
     try {

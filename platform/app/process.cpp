@@ -127,7 +127,8 @@ Result<Plan> make_plan(const Words& words)
     TRY(check_size(words.right, words.rig, plan.rig));
     plan.range = TRY(range_of(words, rig));
     const DisparityRange search = TRY(disparity_range(plan.rig, plan.range));
-    plan.triangulation = TRY(triangulation_for(plan.rig, plan.range, TRY(grid_for(plan.rig, plan.range))));
+    const CloudGrid grid = TRY(grid_for(plan.rig, plan.range));
+    plan.triangulation = TRY(triangulation_for(plan.rig, plan.range, grid));
     plan.match = words.match.resolved();
     plan.match.min_disparity = search.min_disparity;
     plan.match.disparities = search.disparities;
