@@ -212,12 +212,11 @@ TEST(Process, AFullDiskIsNamedAndNothingIsLeft)
     expect_refused(wall, wall.words("full.drc"), 74, "disk is full");
 }
 
-TEST(Process, PicturesWithNothingToMatchAreRefused)
+TEST(Process, ACloudWithoutPointsIsRefused)
 {
+    // The wall at 1500 mm lies before the range, and the next whole disparity, 1578.9 mm, behind it.
     const Wall wall;
-    const std::string black = wall.folder.write("black.ppm", ppm(kWidth, std::vector<std::uint8_t>(kWidth * kHeight * 3)));
-    expect_refused(wall, "process " + black + " " + black + " --rig " + wall.rig + " -o " + wall.folder.path("cloud.drc"), 65,
-                   "the cloud has no points");
+    expect_refused(wall, wall.words("cloud.drc") + " --near-mm 1510 --far-mm 1540", 65, "the cloud has no points");
 }
 
 TEST(Process, TheAloePairBecomesACloudThatDracoOpens)
