@@ -126,6 +126,8 @@ void aggregate_pixel(const AggregateStrip& s, int i, int r)
             numerator[v] =
                 _mm256_add_epi32(numerator[v], _mm256_madd_epi16(w1, DICOT_LOAD(cost + s.disparities + 8 * v)));
             denominator[v] = _mm256_add_epi32(denominator[v], _mm256_madd_epi16(_mm256_add_epi16(w0, w1), ones));
+            // One vector after the other: interleaved by the compiler, they need more registers than there are.
+            asm volatile("" : "+x"(numerator[v]), "+x"(denominator[v]));
         }
         left += 2 * s.left_stride;
         right += 2 * s.right_stride;
