@@ -41,7 +41,9 @@ Result<Kind> kind_of(const char* path)
     if (text.starts_with("\x89PNG") || text.starts_with("\xFF\xD8")
         || (size > 2 && text[0] == 'P' && text[1] >= '1' && text[1] <= '6' && static_cast<unsigned char>(text[2]) <= ' '))
         return Kind::kPicture;
-    const bool readable = std::none_of(text.begin(), text.end(), [](char c) { return c >= 0 && c < ' ' && c != '\n' && c != '\r' && c != '\t'; });
+    const bool readable = std::none_of(text.begin(), text.end(), [](unsigned char c) { // char has no sign on ARM
+        return c < ' ' && c != '\n' && c != '\r' && c != '\t';
+    });
     if (size == 0 || !readable)
         return failure(Fault::kBadData, "%s: neither a cloud (.drc), nor a picture (PNG, JPEG, PPM), nor a rig file (YAML): give "
                        "one of these", shown_path(path));

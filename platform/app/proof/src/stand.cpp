@@ -73,7 +73,7 @@ void Stand::begin(Placement placement)
     placement_ = placement;
 }
 
-std::byte* Stand::place(std::size_t bytes, std::size_t alignment)
+void* Stand::place(std::size_t bytes, std::size_t alignment)
 {
     const std::span<std::byte> area = areas_.at(areas_used_++).bytes();
     if (bytes + alignment > area.size())
@@ -92,16 +92,16 @@ std::byte* Stand::place(std::size_t bytes, std::size_t alignment)
 
 Stand::Pair Stand::place_twice(std::size_t bytes, std::size_t alignment)
 {
-    const auto watched = [&](std::byte* start) {
+    const auto watched = [&](const void* start) {
         const std::span<std::byte> area = areas_.at(areas_used_ - 1).bytes();
-        const auto offset = static_cast<std::size_t>(start - area.data());
+        const auto offset = static_cast<std::size_t>(static_cast<const std::byte*>(start) - area.data());
         const std::size_t from = offset > kMargin ? offset - kMargin : 0;
         return area.subspan(from, std::min(offset + bytes + kMargin, area.size()) - from);
     };
-    std::byte* const law = place(bytes, alignment);
+    void* const law = place(bytes, alignment);
     const std::span<const std::byte> law_watched = watched(law);
-    std::byte* const tested = place(bytes, alignment);
-    outputs_.at(outputs_used_++) = {law_watched, watched(tested), law - law_watched.data()};
+    void* const tested = place(bytes, alignment);
+    outputs_.at(outputs_used_++) = {law_watched, watched(tested), static_cast<std::byte*>(law) - law_watched.data()};
     return {law, tested};
 }
 

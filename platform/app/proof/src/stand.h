@@ -63,14 +63,14 @@ public:
     template <typename T>
     std::span<T> input(std::size_t count)
     {
-        return {reinterpret_cast<T*>(place(count * sizeof(T), alignof(T))), count};
+        return {static_cast<T*>(place(count * sizeof(T), alignof(T))), count};
     }
     /// Two buffers filled with the same noise, inside and around: what a kernel must leave alone is compared too.
     template <typename T>
     Twin<T> output(std::size_t count)
     {
         const Pair pair = place_twice(count * sizeof(T), alignof(T));
-        return {{reinterpret_cast<T*>(pair.law), count}, {reinterpret_cast<T*>(pair.tested), count}};
+        return {{static_cast<T*>(pair.law), count}, {static_cast<T*>(pair.tested), count}};
     }
 
     /// Runs both; empty when all outputs since `begin` agree byte by byte, else the difference in words.
@@ -81,8 +81,8 @@ public:
 private:
     struct Pair
     {
-        std::byte* law;
-        std::byte* tested;
+        void* law; ///< aligned as asked for
+        void* tested;
     };
     struct Compared
     {
@@ -91,7 +91,7 @@ private:
     };
 
     Stand() = default;
-    std::byte* place(std::size_t bytes, std::size_t alignment);
+    void* place(std::size_t bytes, std::size_t alignment);
     Pair place_twice(std::size_t bytes, std::size_t alignment);
 
     std::array<GuardedArea, kAreas> areas_;
