@@ -83,7 +83,7 @@ DispQ8 weighted_median(ImageView<const DispQ8> map, const Maps& maps, const Plan
             if (verdict == Verdict::kUnseen)
                 continue;
             // What was filled from both sides has half a vote.
-            const std::uint32_t weight = weights.between(centre, x, row, nx) >> (verdict == Verdict::kMatched ? 0 : 1);
+            const std::uint32_t weight = std::uint32_t{weights.between(centre, x, row, nx)} >> (verdict == Verdict::kMatched ? 0 : 1);
             const DispQ8 value = map.row(ny)[nx];
             votes[value >> 8] += weight;
             sums[value >> 8] += std::uint64_t{weight} * value;
