@@ -32,8 +32,12 @@ int step(const std::uint16_t* costs, const std::uint16_t* behind, int least_behi
     const int large = edge ? kLargeStep / kEdgeDivisor : kLargeStep;
     const int jump = least_behind + large;
     int least = kNoCandidate;
+    // What cannot be seen is neither better nor worse than the worst of what can.
+    int unseen = 0;
+    for (int r = 0; r < axis; ++r)
+        unseen = std::max<int>(unseen, costs[r] == kNoCandidate ? 0 : costs[r]);
     for (int r = 0; r < axis; ++r) {
-        const int own = std::min<int>(costs[r], kWorst);
+        const int own = std::min<int>(costs[r], unseen);
         const int same = behind[r + 1];
         const int near = std::min<int>(behind[r], behind[r + 2]) + small;
         const int path = own + std::min(std::min(same, near), jump) - least_behind;
