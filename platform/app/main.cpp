@@ -23,6 +23,7 @@ int main(int argc, char** argv)
     app::add_process(program, chosen);
     app::add_export(program, chosen);
     app::add_info(program, chosen);
+    app::add_evaluate(program, chosen);
     app::add_memory(program, chosen);
     app::add_selftest(program, chosen);
 
