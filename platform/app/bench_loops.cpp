@@ -101,7 +101,7 @@ double kernel_terms_per_s(const Kernels& kernels)
 
 double peak_terms_per_cycle(const Kernels& kernels)
 {
-    return std::strcmp(kernels.name, "avx2") == 0 ? 16.0 / (2.5 / 2.0) : 0.0;
+    return std::strcmp(kernels.name, "avx2") == 0 ? 16.0 / (4.5 / 3.0) : 0.0;
 }
 
 } // namespace dicot::app

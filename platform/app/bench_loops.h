@@ -14,8 +14,8 @@ double float_loop_terms_per_s();
 /// Terms a second of the aggregate kernel alone, at 64 disparities and 35 columns, tables in the cache.
 double kernel_terms_per_s(const Kernels& kernels);
 
-/// Terms a cycle that the multipliers of a current x86 core allow (two 256-bit integer multiplies a cycle; 2.5 of
-/// them for 16 terms); 0 for kernels whose core is not known.
+/// Terms a cycle that a current x86 core allows: three 256-bit integer operations a cycle, 4.5 of them for 16 terms
+/// (see algo/kernels/README.md); 0 for kernels whose core is not known.
 double peak_terms_per_cycle(const Kernels& kernels);
 
 } // namespace dicot::app
