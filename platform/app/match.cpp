@@ -90,6 +90,10 @@ Status run(const Words& words)
     if (size.width != other.width || size.height != other.height)
         return failure(Fault::kBadData, "%s is %d x %d px and %s is %d x %d: both pictures of a pair have one size",
                        words.left.c_str(), size.width, size.height, words.right.c_str(), other.width, other.height);
+    const Status fits = Matcher::check(size.width, size.height, options);
+    if (fits.fault() == Fault::kBadData)
+        return failure(Fault::kBadData, "%s: %s", words.left.c_str(), fits.message());
+    TRY(fits);
     {
         OutputFile can_be_written;
         TRY(can_be_written.open(words.output.c_str()));

@@ -1,0 +1,64 @@
+# The Debian packages that dicot needs, by purpose, and how the missing ones are installed. To be sourced.
+#
+#   dicot_install build quickstart    installs what is missing for these purposes; touches apt only if something is
+
+dicot_packages() {
+    case $1 in
+        build) echo "g++ cmake ninja-build pkg-config libpng-dev libjpeg62-turbo-dev libyaml-dev libcli11-dev
+            nlohmann-json3-dev libeigen3-dev libdraco-dev" ;;
+        quickstart) echo "libjpeg-turbo-progs" ;; # djpeg scales the pair
+        test) echo "libgtest-dev libgmock-dev draco pcl-tools python3" ;; # draco, pcl-tools: readers of others for our files
+        clang) echo "clang-14 libclang-rt-14-dev" ;;
+        lint) echo "clang-format-14 clang-tidy-14 shellcheck" ;;
+        cross) echo "g++-aarch64-linux-gnu g++-arm-linux-gnueabihf qemu-user mmdebstrap" ;;
+        *)
+            echo "dicot: there is no purpose '$1' in toolchain/packages.sh" >&2
+            return 64
+            ;;
+    esac
+}
+
+dicot_missing() {
+    for purpose in "$@"; do
+        for package in $(dicot_packages "$purpose"); do
+            case $(dpkg-query -W -f '${Status}' "$package" 2>/dev/null) in
+                'install ok installed') ;;
+                *) printf '%s ' "$package" ;;
+            esac
+        done
+    done
+}
+
+dicot_install() {
+    for purpose in "$@"; do
+        dicot_packages "$purpose" >/dev/null || return
+    done
+    dicot_wanted=$(dicot_missing "$@")
+    [ -n "$dicot_wanted" ] || return 0
+    if ! command -v apt-get >/dev/null 2>&1; then
+        echo "dicot: this system has no apt-get; install these yourself, or use Debian 12: $dicot_wanted" >&2
+        return 69
+    fi
+    if [ "$(id -u)" != 0 ]; then
+        echo "dicot: packages are missing and only root can install them; run this, then start again:" >&2
+        echo "  sudo apt-get install --no-install-recommends $dicot_wanted" >&2
+        return 77
+    fi
+    echo "installing: $dicot_wanted"
+    dicot_apt_log=$(mktemp)
+    # The package lists may be absent or old: they are fetched only if it does not work with those at hand.
+    # shellcheck disable=SC2086 # a list of words
+    if dicot_apt_get install $dicot_wanted >"$dicot_apt_log" 2>&1 ||
+        { dicot_apt_get update >>"$dicot_apt_log" 2>&1 && dicot_apt_get install $dicot_wanted >>"$dicot_apt_log" 2>&1; }; then
+        rm -f "$dicot_apt_log"
+        return 0
+    fi
+    tail -n 15 "$dicot_apt_log" >&2
+    rm -f "$dicot_apt_log"
+    echo "dicot: apt-get could not install the packages above; mend its complaint (network, disk, sources) and start again" >&2
+    return 69
+}
+
+dicot_apt_get() {
+    DEBIAN_FRONTEND=noninteractive apt-get -q -y --no-install-recommends "$@" </dev/null
+}

@@ -1,0 +1,124 @@
+#!/bin/sh
+# From a bare Debian 12 to a 3D cloud of a real plant: sh toolchain/quickstart.sh
+set -eu
+
+root=$(cd "$(dirname "$0")/.." && pwd)
+build=$root/.build/quickstart
+out=$root/.build/quickstart-out
+cache=$root/.cache
+. "$root/toolchain/packages.sh"
+
+step() { printf '\n[%s/6] %s\n' "$1" "$2"; }
+
+fail() {
+    echo "quickstart: $1" >&2
+    exit "${2:-1}"
+}
+
+# Runs a command quietly; shows the end of what it said if it fails.
+quietly() {
+    log=$root/.build/quickstart.log
+    "$@" >"$log" 2>&1 && return 0
+    tail -n 30 "$log" >&2
+    fail "this failed: $* (all of it: $log)" 70
+}
+
+# Three files out of Debian's opencv-doc, without installing it.
+fetch_pair() {
+    [ ! -f "$cache/aloe/aloeL.jpg" ] || [ ! -f "$cache/aloe/aloeR.jpg" ] || [ ! -f "$cache/aloe/aloeGT.png" ] || return 0
+    folder=$(mktemp -d "$cache/aloe.XXXXXX")
+    trap 'rm -rf "$folder"' EXIT
+    (
+        cd "$folder"
+        # As root, apt lets its own user download; the folder is open to it.
+        [ "$(id -u)" != 0 ] || chmod 777 .
+        apt-get -q download opencv-doc || { [ "$(id -u)" = 0 ] && apt-get -q update && apt-get -q download opencv-doc; }
+        dpkg-deb --fsys-tarfile opencv-doc_*.deb |
+            tar -x --strip-components=7 -f - ./usr/share/doc/opencv-doc/examples/data/aloeL.jpg \
+                ./usr/share/doc/opencv-doc/examples/data/aloeR.jpg ./usr/share/doc/opencv-doc/examples/data/aloeGT.png
+        rm -f opencv-doc_*.deb
+    ) >"$root/.build/quickstart.log" 2>&1 || {
+        tail -n 10 "$root/.build/quickstart.log" >&2
+        fail "cannot take the pictures out of Debian's package opencv-doc: check the network and 'apt-get update'" 69
+    }
+    for name in aloeL.jpg aloeR.jpg aloeGT.png; do
+        [ -s "$folder/$name" ] || fail "Debian's package opencv-doc holds no $name" 69
+    done
+    rm -rf "$cache/aloe"
+    chmod 755 "$folder"
+    mv "$folder" "$cache/aloe"
+    trap - EXIT
+}
+
+# All lengths in pixels are half of those at full size.
+write_rig() {
+    cat >"$1" <<RIG
+%YAML:1.0
+---
+# The Aloe pair of Middlebury 2006 at half of its size. Full size: focal length 3740 px, baseline 160 mm; the crop's
+# disparity offset is 270 px as far as is known. The principal point is assumed in the middle.
+id: "aloe-middlebury-2006-half"
+unit: mm
+image_width: 641
+image_height: 555
+near_mm: 1200
+far_mm: 1950
+P1: !!opencv-matrix
+   rows: 3
+   cols: 4
+   dt: d
+   data: [ 1870., 0., 320., 0., 0., 1870., 277., 0., 0., 0., 1., 0. ]
+P2: !!opencv-matrix
+   rows: 3
+   cols: 4
+   dt: d
+   data: [ 1870., 0., 455., -299200., 0., 1870., 277., 0., 0., 0., 1., 0. ]
+RIG
+}
+
+started=$(date +%s)
+mkdir -p "$root/.build" "$cache" "$out"
+
+step 1 "Packages: the compiler, the libraries, djpeg"
+dicot_install build quickstart || exit
+packaged=$(date +%s)
+
+step 2 "Building dicot with $(nproc) processors"
+quietly cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DDICOT_TESTS=OFF
+quietly cmake --build "$build" --target dicot
+dicot=$build/platform/app/dicot
+"$dicot" --version
+
+step 3 "A real pair: the Aloe of Middlebury 2006, out of Debian's opencv-doc"
+fetch_pair
+quietly djpeg -scale 1/2 -outfile "$out/left.ppm" "$cache/aloe/aloeL.jpg"
+quietly djpeg -scale 1/2 -outfile "$out/right.ppm" "$cache/aloe/aloeR.jpg"
+write_rig "$out/rig.yaml"
+echo "scaled to 641 x 555 px, the size that a board works at"
+echo "geometry (half of full size): focal length 1870 px, baseline 160 mm, disparity offset 135 px. The offset is what is"
+echo "known of this crop, not a calibration: shapes are right, absolute distances are as good as that number"
+
+step 4 "From the pair to a compressed cloud: dicot process"
+"$dicot" process "$out/left.ppm" "$out/right.ppm" --rig "$out/rig.yaml" -o "$out/cloud.drc" --ply "$out/cloud.ply" \
+    --disparity "$out/disparity.png" --preview "$out/preview.png"
+
+step 5 "Against the ground truth: dicot match --dense, dicot evaluate"
+"$dicot" match "$out/left.ppm" "$out/right.ppm" -o "$out/dense.pfm" --dense --disparities 118
+"$dicot" evaluate "$out/dense.pfm" "$cache/aloe/aloeGT.png"
+
+step 6 "Done in $(($(date +%s) - packaged)) s, after $((packaged - started)) s for packages. In $out:"
+cat <<WHERE
+  cloud.drc      the cloud, Draco-compressed ($(wc -c <"$out/cloud.drc") bytes; as PLY $(wc -c <"$out/cloud.ply"))
+  cloud.ply      the same for CloudCompare, MeshLab, Blender: open or import it there
+  preview.png    the cloud from two viewpoints
+  disparity.png  distances in colour: red is near, blue far, black has no match
+  dense.pfm      every pixel's disparity, as the benchmarks want it
+  rig.yaml       the cameras' geometry: write one like it for your own rectified pair
+
+Next:
+  $dicot export $out/cloud.drc -o cloud.pcd      for PCL and Open3D
+  $dicot info $out/cloud.drc                     what the file says about itself
+  $dicot process LEFT RIGHT --rig RIG.yaml -o CLOUD.drc      your own pair
+  $dicot --help
+  sh $root/toolchain/test.sh                      all tests
+WHERE
