@@ -23,8 +23,8 @@ long aggregate(const Kernels& kernels, int repeats)
     const std::vector<PairU16> costs((kPixels + kMaxWindow - 1) * kDisparities, {100, 50});
     std::vector<std::uint32_t> numerator(kPixels * kDisparities), denominator(kPixels * kDisparities);
     for (int i = 0; i < repeats; ++i)
-        kernels.aggregate({left.data(), right.data(), costs.data(), numerator.data(), denominator.data(), kPixels, kRight,
-                           kMaxWindow, kPixels, kDisparities});
+        kernels.aggregate({left.data(), right.data(), costs.data(), numerator.data(), denominator.data(), kPixels,
+                           kRight, kMaxWindow, kPixels, kDisparities});
     return 2L * kMaxWindow * kPixels * kDisparities;
 }
 

@@ -73,7 +73,8 @@ TEST(KernelMutants, AQuotientRoundedInsteadOfCutOffIsFoundOut)
     Kernels mutant = law_called("rounds");
     mutant.normalise = [](std::uint16_t* out, const std::uint32_t* numerator, const std::uint32_t* denominator, int n) {
         for (int i = 0; i < n; ++i)
-            out[i] = static_cast<std::uint16_t>((std::uint64_t{numerator[i]} * 256 + denominator[i] / 2) / denominator[i]);
+            out[i] =
+                static_cast<std::uint16_t>((std::uint64_t{numerator[i]} * 256 + denominator[i] / 2) / denominator[i]);
     };
     expect_found_out(mutant, "normalise");
 }
@@ -145,7 +146,10 @@ TEST(KernelMutants, OverwritingTheOtherRowsCostsIsFoundOut)
 }
 
 // What a harmless-looking vector load does at the end of a row: the value read is not used.
-[[gnu::noinline]] void read(const volatile std::uint8_t* byte) { (void)*byte; }
+[[gnu::noinline]] void read(const volatile std::uint8_t* byte)
+{
+    (void)*byte;
+}
 
 TEST(KernelMutants, ReadingOneByteBehindARowIsFoundOut)
 {
@@ -214,7 +218,9 @@ TEST(KernelMutants, AVerdictWithoutCasesIsNotProven)
 TEST(KernelMutants, AFaultyLawFailsItsOwnVectors)
 {
     Kernels law = kScalarKernels;
-    law.normalise = [](std::uint16_t* out, const std::uint32_t*, const std::uint32_t*, int n) { std::fill_n(out, n, 1); };
+    law.normalise = [](std::uint16_t* out, const std::uint32_t*, const std::uint32_t*, int n) {
+        std::fill_n(out, n, 1);
+    };
     Report report{20};
     ASSERT_TRUE(prove_law(law, report).ok());
     EXPECT_FALSE(report.passed());

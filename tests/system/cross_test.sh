@@ -112,6 +112,11 @@ for arch in arm64 armhf; do
     program="$emulator -L $sysroot $checkout/.build/$arch/platform/app/dicot"
 
     code=0
+    sh "$checkout/tests/kernels/no_shared_code.sh" nm \
+        "$checkout/.build/$arch/algo/kernels/CMakeFiles/dicot_kernels.dir/neon/neon.cpp.o" || code=$?
+    judge "$arch vector file shares no code" $code
+
+    code=0
     $program selftest >"$work/selftest" || code=$?
     cat "$work/selftest"
     judge "$arch selftest" $code

@@ -8,8 +8,14 @@ namespace dicot {
 namespace {
 
 // Two rows' values side by side: 4 words are 8 lanes.
-uint16x8_t load_pairs(const PairU16* from) { return vld1q_u16(&from->low); }
-int16x8_t load_signed(const PairU16* from) { return vreinterpretq_s16_u16(load_pairs(from)); }
+uint16x8_t load_pairs(const PairU16* from)
+{
+    return vld1q_u16(&from->low);
+}
+int16x8_t load_signed(const PairU16* from)
+{
+    return vreinterpretq_s16_u16(load_pairs(from));
+}
 
 // One pair in all words. This load needs no alignment on either architecture.
 int16x8_t broadcast(const PairU16* from)
@@ -23,10 +29,19 @@ int32x4_t add_product_low(int32x4_t sum, int16x8_t a, int16x8_t b)
 {
     return vmlal_s16(sum, vget_low_s16(a), vget_low_s16(b));
 }
-int32x4_t add_product_high(int32x4_t sum, int16x8_t a, int16x8_t b) { return vmlal_high_s16(sum, a, b); }
-int32x4_t add_neighbours(int32x4_t low, int32x4_t high) { return vpaddq_s32(low, high); }
+int32x4_t add_product_high(int32x4_t sum, int16x8_t a, int16x8_t b)
+{
+    return vmlal_high_s16(sum, a, b);
+}
+int32x4_t add_neighbours(int32x4_t low, int32x4_t high)
+{
+    return vpaddq_s32(low, high);
+}
 // A table of 16 bytes, looked up by 8 bytes below 16.
-uint8x8_t look_up(uint8x16_t table, uint8x8_t index) { return vqtbl1_u8(table, index); }
+uint8x8_t look_up(uint8x16_t table, uint8x8_t index)
+{
+    return vqtbl1_u8(table, index);
+}
 // 2 pixels * 4 vectors * 3 sums leave 8 of the 32 registers.
 constexpr bool kPixelsInPairs = true;
 #else
@@ -184,7 +199,10 @@ void match_cost(std::uint16_t* out, int n, int disparities, CostRow left, CostRo
 
 // ---- aggregation ----------------------------------------------------------------------------------------------------
 
-int16x8_t term_weights(int16x8_t left, const PairU16* right) { return vqrdmulhq_s16(load_signed(right), left); }
+int16x8_t term_weights(int16x8_t left, const PairU16* right)
+{
+    return vqrdmulhq_s16(load_signed(right), left);
+}
 
 // The sums of one pixel over kVectors * 4 positions. Lanes of the numerators are even and odd row by turns until
 // the end. Widening addition costs as much as adding in 16 bits first, so each column is widened at once.

@@ -26,8 +26,7 @@ struct Call
         const auto words = [&](int count) { return any ? static_cast<std::size_t>(count) : std::size_t{0}; };
         // The last row ends with its last weight: no gap follows.
         left = stand.input<PairU16>(words((shape.columns - 1) * left_stride + shape.pixels));
-        right = stand.input<PairU16>(
-            words((shape.columns - 1) * right_stride + shape.pixels + shape.disparities - 1));
+        right = stand.input<PairU16>(words((shape.columns - 1) * right_stride + shape.pixels + shape.disparities - 1));
         costs = stand.input<PairU16>(words((shape.pixels + shape.columns - 1) * shape.disparities));
         numerator = stand.output<std::uint32_t>(words(shape.pixels * shape.disparities));
         denominator = stand.output<std::uint32_t>(words(shape.pixels * shape.disparities));
@@ -114,7 +113,8 @@ void compare(const Kernels& tested, Stand& stand, Dice& dice, Verdict& verdict)
             stand.difference([&](int) { call.run(kScalarKernels, call.numerator.law, call.denominator.law); },
                              [&](int) { call.run(tested, call.numerator.tested, call.denominator.tested); });
         if (words[0] != 0)
-            note_fault(verdict, "%d columns, %d pixels, %d disparities, strides %d and %d, weights %s, costs %s, %s: %s",
+            note_fault(verdict,
+                       "%d columns, %d pixels, %d disparities, strides %d and %d, weights %s, costs %s, %s: %s",
                        shape.columns, shape.pixels, shape.disparities, call.left_stride, call.right_stride,
                        word_for(weights), word_for(costs), word_for(placement), words);
         ++verdict.compared;
@@ -150,7 +150,7 @@ double time(const Kernels& tested, Stand& stand)
 } // namespace
 
 const KernelProof kAggregateProof = {
-    "aggregate", "terms", [](const Kernels& a, const Kernels& b) { return a.aggregate == b.aggregate; }, work, compare,
-    time};
+    "aggregate", "terms", [](const Kernels& a, const Kernels& b) { return a.aggregate == b.aggregate; },
+    work,        compare, time};
 
 } // namespace dicot::proof

@@ -52,14 +52,14 @@ void work(const Kernels& tested, Stand& stand, Verdict& verdict)
         std::uint8_t red, green, blue, census, cost;
     };
     constexpr Vector kVectors[] = {
-        {200, 100, 50, 0b10110010, 0},  // the same pixel
-        {201, 100, 50, 0b10110010, 0},  // 1 / 7
-        {200, 107, 50, 0b10110010, 1},  // 7 / 7
-        {200, 100, 50, 0b10110011, 11}, // one bit
-        {190, 110, 60, 0b01001101, 92}, // 30 / 7 = 4, eight bits 88
-        {0, 0, 0, 0b00000000, 94},      // 350 / 7 = 50, four bits 44
+        {200, 100, 50, 0b10110010, 0},    // the same pixel
+        {201, 100, 50, 0b10110010, 0},    // 1 / 7
+        {200, 107, 50, 0b10110010, 1},    // 7 / 7
+        {200, 100, 50, 0b10110011, 11},   // one bit
+        {190, 110, 60, 0b01001101, 92},   // 30 / 7 = 4, eight bits 88
+        {0, 0, 0, 0b00000000, 94},        // 350 / 7 = 50, four bits 44
         {255, 255, 255, 0b11111111, 103}, // (55 + 155 + 205) / 7 = 59, four bits 44
-        {60, 255, 185, 0b00110000, 83}, // (140 + 155 + 135) / 7 = 61, two bits 22
+        {60, 255, 185, 0b00110000, 83},   // (140 + 155 + 135) / 7 = 61, two bits 22
     };
     constexpr std::uint16_t kUntouched = 0xBEEF;
     stand.begin(Placement::kLast);
@@ -142,7 +142,7 @@ double time(const Kernels& tested, Stand& stand)
 } // namespace
 
 const KernelProof kMatchCostProof = {
-    "match_cost", "costs", [](const Kernels& a, const Kernels& b) { return a.match_cost == b.match_cost; }, work,
-    compare, time};
+    "match_cost", "costs", [](const Kernels& a, const Kernels& b) { return a.match_cost == b.match_cost; },
+    work,         compare, time};
 
 } // namespace dicot::proof

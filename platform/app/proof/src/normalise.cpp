@@ -35,22 +35,22 @@ void work(const Kernels& tested, Stand& stand, Verdict& verdict)
     };
     constexpr Vector kVectors[] = {
         {0, 1, 0},
-        {7, 2, 896},                      // 3.5 * 256
-        {1, 3, 85},                       // 85.33
-        {2, 3, 170},                      // 170.67 is not rounded up
-        {600, 3, 51200},                  // the largest: 200 * 256
-        {1, 257, 0},                      // 0.996
-        {2, 257, 1},                      // 1.99
+        {7, 2, 896},     // 3.5 * 256
+        {1, 3, 85},      // 85.33
+        {2, 3, 170},     // 170.67 is not rounded up
+        {600, 3, 51200}, // the largest: 200 * 256
+        {1, 257, 0},     // 0.996
+        {2, 257, 1},     // 1.99
         {200, 1, 51200},
         {0, 2147483647, 0},
-        {8388607, 2147483647, 0},         // 2^31 - 256 is less than 2^31 - 1
-        {8388608, 2147483647, 1},         // 2^31 is more
-        {4294967295, 2147483647, 512},    // (2^32 - 1) * 256 = 512 * (2^31 - 1) + 256
-        {4294967294, 2147483647, 512},    // 2 * (2^31 - 1), exactly
-        {4294967293, 2147483647, 511},    // and one less
-        {4294967295, 21474837, 51199},    // 21474837 * 200 = 2^32 + 104: just below the largest
-        {3355377065, 16777213, 51199},    // 16777213 * 51199 = 256 * 3355377064 + 3: the first that reaches it ...
-        {3355377064, 16777213, 51198},    // ... and the last that does not
+        {8388607, 2147483647, 0},      // 2^31 - 256 is less than 2^31 - 1
+        {8388608, 2147483647, 1},      // 2^31 is more
+        {4294967295, 2147483647, 512}, // (2^32 - 1) * 256 = 512 * (2^31 - 1) + 256
+        {4294967294, 2147483647, 512}, // 2 * (2^31 - 1), exactly
+        {4294967293, 2147483647, 511}, // and one less
+        {4294967295, 21474837, 51199}, // 21474837 * 200 = 2^32 + 104: just below the largest
+        {3355377065, 16777213, 51199}, // 16777213 * 51199 = 256 * 3355377064 + 3: the first that reaches it ...
+        {3355377064, 16777213, 51198}, // ... and the last that does not
     };
     for (const Vector& vector : kVectors) {
         constexpr int kCount = 7; // more than a vector, and some left over
@@ -71,9 +71,9 @@ void work(const Kernels& tested, Stand& stand, Verdict& verdict)
 enum class Quotients
 {
     kAnywhere,
-    kWhole,        ///< the smallest numerator that reaches a whole quotient
-    kAlmostWhole,  ///< the largest that does not
-    kLargest,      ///< the largest numerator of the domain
+    kWhole,       ///< the smallest numerator that reaches a whole quotient
+    kAlmostWhole, ///< the largest that does not
+    kLargest,     ///< the largest numerator of the domain
 };
 
 std::uint32_t largest_numerator(std::uint32_t denominator)
@@ -141,7 +141,7 @@ double time(const Kernels& tested, Stand& stand)
 } // namespace
 
 const KernelProof kNormaliseProof = {
-    "normalise", "quotients", [](const Kernels& a, const Kernels& b) { return a.normalise == b.normalise; }, work,
-    compare, time};
+    "normalise", "quotients", [](const Kernels& a, const Kernels& b) { return a.normalise == b.normalise; },
+    work,        compare,     time};
 
 } // namespace dicot::proof

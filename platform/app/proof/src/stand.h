@@ -18,9 +18,9 @@ namespace dicot::proof {
 /// Where buffers lie in their guarded areas.
 enum class Placement
 {
-    kFirst,  ///< begins where the area begins: nothing can be read before it
-    kLast,   ///< ends where the area ends: nothing can be read behind it
-    kAskew,  ///< one element behind the begin: aligned to its type and to no more
+    kFirst, ///< begins where the area begins: nothing can be read before it
+    kLast,  ///< ends where the area ends: nothing can be read behind it
+    kAskew, ///< one element behind the begin: aligned to its type and to no more
 };
 inline constexpr std::array kPlacements = {Placement::kFirst, Placement::kLast, Placement::kAskew};
 

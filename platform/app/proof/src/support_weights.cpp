@@ -39,7 +39,8 @@ struct Call
 
 void work(const Kernels& tested, Stand& stand, Verdict& verdict)
 {
-    // Position of a distance D = 2^e (1 + f): 64 e + floor(64 f) + 1, and 0 for D = 0. The table gives 32767 - 16 * position.
+    // Position of a distance D = 2^e (1 + f): 64 e + floor(64 f) + 1, and 0 for D = 0. The table gives 32767 - 16 *
+    // position.
     struct Vector
     {
         PairS16 p_la, q_la;
@@ -99,10 +100,10 @@ void work(const Kernels& tested, Stand& stand, Verdict& verdict)
 
 enum class Colours
 {
-    kAnywhere,  ///< all of CIELAB in the picture
-    kNear,      ///< small differences: the table's first octaves
-    kOutside,   ///< window pixels outside the picture
-    kFarthest,  ///< the largest differences of the domain
+    kAnywhere, ///< all of CIELAB in the picture
+    kNear,     ///< small differences: the table's first octaves
+    kOutside,  ///< window pixels outside the picture
+    kFarthest, ///< the largest differences of the domain
 };
 
 PairS16 draw_la(Dice& dice, Colours colours, bool centre)
@@ -174,7 +175,11 @@ double time(const Kernels& tested, Stand& stand)
 } // namespace
 
 const KernelProof kSupportWeightsProof = {
-    "support_weights", "weights",
-    [](const Kernels& a, const Kernels& b) { return a.support_weights == b.support_weights; }, work, compare, time};
+    "support_weights",
+    "weights",
+    [](const Kernels& a, const Kernels& b) { return a.support_weights == b.support_weights; },
+    work,
+    compare,
+    time};
 
 } // namespace dicot::proof

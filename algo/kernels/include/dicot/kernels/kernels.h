@@ -103,7 +103,8 @@ struct Kernels
     ///   out[i].high = the same with q_high and spatial.high
     /// where |.|^2 sums the three squared channel differences (int16 differences must not overflow: L in 0 .. 30000,
     /// a and b within +-3000), index() is the single-precision prefix described at kColourSteps, and
-    /// round_q15(x) = (x + 2^14) >> 15. `colour` has kColourTableAllocation entries, each <= kLeftWeightOne.
+    /// round_q15(x) = (x + 2^14) >> 15. `colour` has kColourTableAllocation entries, each <= kLeftWeightOne, as are
+    /// the two of `spatial`.
     void (*support_weights)(PairU16* out, int n, LabRow p, LabRow q_low, LabRow q_high, const std::uint16_t* colour,
                             PairU16 spatial);
 
@@ -117,6 +118,7 @@ struct Kernels
     ///   w = round_q15(left_weights[c][i] * right_weights[c][i + r])       (both halves; w <= kRightWeightOne)
     ///   numerator[i][r]   += w.low * cost.low + w.high * cost.high        (cost = costs[i + c][r])
     ///   denominator[i][r] += w.low + w.high
+    /// Domain: left weights <= kLeftWeightOne, right ones <= kRightWeightOne, costs <= kCostMax.
     void (*aggregate)(const AggregateStrip& strip);
 
     /// Eq. 13's division: out[i] = floor(numerator[i] * 256 / denominator[i]). Domain: 0 < denominator[i] < 2^31,

@@ -17,8 +17,8 @@ struct Verdict
 
     const char* level = "";
     const char* kernel = "";
-    int worked = 0;               ///< vectors worked by hand that were run
-    int compared = 0;             ///< cases compared with the law (the law itself has none)
+    int worked = 0;   ///< vectors worked by hand that were run
+    int compared = 0; ///< cases compared with the law (the law itself has none)
     bool is_law = false;
     char fault[kFaultBytes] = {}; ///< the first wrong case in words; empty: none
     const char* unit = "";        ///< what per_second counts
