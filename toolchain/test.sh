@@ -1,0 +1,186 @@
+#!/bin/sh
+# Every test of dicot, from a bare Debian 12 on: installs what is missing, builds in each way that matters, runs, counts.
+#
+#   sh toolchain/test.sh             everything: about 25 minutes on two processors
+#   sh toolchain/test.sh --quick     the release build's tests and the rules of the house
+#
+# The last line says "N passed, N failed"; the exit code is 0 only if none failed. A stage that does not build, or that
+# runs no test at all, counts as a failure. Logs: .build/test-logs.
+set -u
+
+cd "$(dirname "$0")/.." || exit 70
+. toolchain/packages.sh
+logs=.build/test-logs
+passed=0
+failed=0
+summary=
+not_run=
+
+case ${1:-} in
+    '') quick=false ;;
+    --quick) quick=true ;;
+    *)
+        echo "test.sh: '$1' is no option; there is --quick" >&2
+        exit 64
+        ;;
+esac
+
+# Runs a stage: its function sets stage_passed, stage_failed and stage_skipped.
+stage() { # name, function, its words
+    stage_name=$1
+    stage_passed=0 stage_failed=0 stage_skipped=0
+    stage_log=$logs/$stage_name.log
+    : >"$stage_log"
+    shift
+    stage_start=$(date +%s)
+    echo "[$stage_name]"
+    if ! "$@"; then
+        echo "    FAILED: $stage_name did not get to its end; $stage_log says:"
+        tail -n 25 "$stage_log" | sed 's/^/    /'
+        stage_failed=$((stage_failed + 1))
+    elif [ $((stage_passed + stage_failed)) = 0 ]; then
+        echo "    FAILED: $stage_name ran no test"
+        stage_failed=1
+    fi
+    passed=$((passed + stage_passed))
+    failed=$((failed + stage_failed))
+    line=$(printf '%-9s %5d passed, %2d failed, %2d skipped, %4d s' "$stage_name" $stage_passed $stage_failed \
+        $stage_skipped $(($(date +%s) - stage_start)))
+    echo "    $line"
+    summary="$summary$line
+"
+}
+
+# cmake --preset and its build; more words are targets.
+build() { # preset, targets
+    preset=$1
+    shift
+    cmake --preset "$preset" >>"$stage_log" 2>&1 || return
+    [ $# = 0 ] || set -- --target "$@"
+    cmake --build --preset "$preset" "$@" >>"$stage_log" 2>&1
+}
+
+# Runs CTest and adds up what it says; what a passing test reports as not run is kept for the end.
+count_ctest() { # build folder, words for ctest
+    folder=$1
+    shift
+    ctest_log=$logs/ctest.log
+    ctest --test-dir "$folder" --no-tests=error --output-on-failure --timeout 900 "$@" >"$ctest_log" 2>&1
+    cat "$ctest_log" >>"$stage_log"
+    last=$(grep -E '^[0-9]+% tests passed, [0-9]+ tests? failed out of [0-9]+' "$ctest_log" | tail -n 1)
+    [ -n "$last" ] || return 1
+    all=$(echo "$last" | sed 's/.* out of \([0-9]*\).*/\1/')
+    bad=$(echo "$last" | sed 's/.*passed, \([0-9]*\) test.*/\1/')
+    skipped=$(grep -cE '\*\*\*Skipped' "$ctest_log")
+    stage_passed=$((stage_passed + all - bad - skipped))
+    stage_failed=$((stage_failed + bad))
+    stage_skipped=$((stage_skipped + skipped))
+    [ "$bad" = 0 ] || sed -n '/The following tests FAILED/,$p' "$ctest_log" | sed 's/^/    /'
+    missed=$(
+        grep -ha '^NOT RUN' "$folder/Testing/Temporary/LastTest.log" | sort -u
+        sed -n 's/^.*Test *#[0-9]*: \([^ ]*\) .*\*\*\*Skipped.*/NOT RUN: \1 says that it was skipped/p' "$ctest_log"
+    )
+    [ -z "$missed" ] || not_run="$not_run$(echo "$missed" | sed "s/^/$stage_name: /")
+"
+    return 0
+}
+
+# Adds up lines that begin with "ok" or "FAILED", which the scripts of tests/lint and the cross test print.
+count_lines() { # command
+    lines=$logs/lines.log
+    "$@" >"$lines" 2>&1
+    code=$?
+    cat "$lines" >>"$stage_log"
+    good=$(grep -c '^ok ' "$lines")
+    bad=$(grep -c '^FAILED ' "$lines")
+    stage_passed=$((stage_passed + good))
+    stage_failed=$((stage_failed + bad))
+    [ "$bad" = 0 ] || grep -A 20 '^FAILED ' "$lines" | grep -v '^ok ' | head -n 60 | sed 's/^/    /'
+    [ $code = 0 ] || [ "$bad" != 0 ]
+}
+
+release() {
+    build release || return
+    count_ctest .build/release -j "$(nproc)" -LE accuracy || return
+}
+
+# Alone, and with the figures on the screen.
+accuracy() {
+    count_ctest .build/release -L accuracy -V || return
+    sed -nE 's/^[0-9]+: //p' "$ctest_log" | grep -aE '%|\||mean|error rates' | grep -av '^\[' | sed 's/^/    /'
+    return 0
+}
+
+house() {
+    count_lines sh tests/lint/house.sh || return
+}
+
+lint() {
+    count_lines shellcheck_all || return
+    count_lines sh tests/lint/format.sh || return
+    cmake --preset clang >>"$stage_log" 2>&1 || return
+    count_lines sh tests/lint/tidy.sh .build/clang || return
+}
+
+shellcheck_all() {
+    # -x: packages.sh is sourced; SC1091: by a path that only the running script knows.
+    find toolchain tests -name '*.sh' -exec shellcheck -s sh -x -e SC1091 '{}' + && shellcheck .ci/run && echo "ok      shellcheck" ||
+        echo "FAILED  shellcheck"
+}
+
+clang() {
+    build clang || return
+    count_ctest .build/clang -j "$(nproc)" -LE accuracy || return
+}
+
+asan() {
+    build asan || return
+    count_ctest .build/asan -j "$(nproc)" || return
+}
+
+tsan() {
+    build tsan thread_tests || return
+    count_ctest .build/tsan -j "$(nproc)" -L threads || return
+}
+
+fuzz() {
+    build fuzz fuzz_tests || return
+    count_ctest .build/fuzz -j "$(nproc)" -L fuzz || return
+}
+
+cross() {
+    pair=../shared/data/plants/aloe-third
+    if [ -f "$pair/left.png" ] && [ -f "$pair/right.png" ]; then
+        set -- "$pair/left.png" "$pair/right.png"
+    else
+        set --
+        not_run="${not_run}cross: NOT RUN: the real pair: $pair is not there
+"
+    fi
+    count_lines sh tests/system/cross_test.sh .build/release/platform/app/dicot "$@" || return
+}
+
+mkdir -p "$logs"
+if $quick; then
+    dicot_install build quickstart test || exit
+else
+    dicot_install build quickstart test clang lint cross || exit
+fi
+
+stage release release
+stage house house
+if ! $quick; then
+    stage accuracy accuracy
+    stage lint lint
+    stage clang clang
+    stage asan asan
+    stage tsan tsan
+    stage fuzz fuzz
+    stage cross cross
+fi
+
+echo
+[ -z "$not_run" ] || printf '%s\n' "$not_run"
+printf '%s' "$summary"
+echo "$passed passed, $failed failed"
+[ $failed = 0 ]
