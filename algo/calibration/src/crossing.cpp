@@ -1,0 +1,75 @@
+#include "crossing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dicot::calibration {
+
+namespace {
+
+constexpr int kMaxSteps = 40;
+constexpr double kSettled_px = 1e-3;
+constexpr double kMinEdgeBalance = 0.01; // smaller against larger eigenvalue of the gradients' spread, squared scale
+
+struct Normal
+{
+    double xx = 0, xy = 0, yy = 0, x = 0, y = 0;
+};
+
+Normal gather(const GreyLevel& level, Point2 centre, Point2 half_u, Point2 half_v)
+{
+    const double reach_x = std::abs(half_u.x) + std::abs(half_v.x);
+    const double reach_y = std::abs(half_u.y) + std::abs(half_v.y);
+    const int x0 = std::max(1, static_cast<int>(std::ceil(centre.x - reach_x)));
+    const int x1 = std::min(level.width - 2, static_cast<int>(std::floor(centre.x + reach_x)));
+    const int y0 = std::max(1, static_cast<int>(std::ceil(centre.y - reach_y)));
+    const int y1 = std::min(level.height - 2, static_cast<int>(std::floor(centre.y + reach_y)));
+    const double area = cross(half_u, half_v);
+
+    Normal sum;
+    for (int y = y0; y <= y1; ++y) {
+        for (int x = x0; x <= x1; ++x) {
+            const Point2 off{x - centre.x, y - centre.y};
+            const double s = cross(off, half_v) / area;
+            const double t = cross(half_u, off) / area;
+            if (s * s >= 1 || t * t >= 1)
+                continue;
+            const double gx = 0.5 * (level.at(x + 1, y) - level.at(x - 1, y));
+            const double gy = 0.5 * (level.at(x, y + 1) - level.at(x, y - 1));
+            const double fade = (1 - s * s) * (1 - t * t);
+            const double w = fade * fade;
+            sum.xx += w * gx * gx;
+            sum.xy += w * gx * gy;
+            sum.yy += w * gy * gy;
+            sum.x += w * (gx * gx * off.x + gx * gy * off.y);
+            sum.y += w * (gx * gy * off.x + gy * gy * off.y);
+        }
+    }
+    return sum;
+}
+
+} // namespace
+
+std::optional<Point2> refine_crossing(const GreyLevel& level, Point2 start, Point2 half_u, Point2 half_v,
+                                      double max_move_px)
+{
+    if (std::abs(cross(half_u, half_v)) < 1.0)
+        return std::nullopt;
+    Point2 at = start;
+    for (int step = 0; step < kMaxSteps; ++step) {
+        const Normal n = gather(level, at, half_u, half_v);
+        const double determinant = n.xx * n.yy - n.xy * n.xy;
+        const double trace = n.xx + n.yy;
+        if (!(determinant > kMinEdgeBalance * trace * trace))
+            return std::nullopt;
+        const Point2 move{(n.yy * n.x - n.xy * n.y) / determinant, (n.xx * n.y - n.xy * n.x) / determinant};
+        at = at + move;
+        if (!(length(at - start) <= max_move_px))
+            return std::nullopt;
+        if (length(move) < kSettled_px)
+            break;
+    }
+    return at;
+}
+
+} // namespace dicot::calibration
