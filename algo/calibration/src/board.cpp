@@ -15,13 +15,14 @@ namespace dicot::calibration {
 namespace {
 
 constexpr double kSearchSigma_px = 1.4;
-constexpr double kRefineSigma_px = 0.7;
+constexpr double kRefineSigma_px = 1.0;
 constexpr std::size_t kMostSaddles = 2500;
 constexpr int kFirstLevelSide_px = 1600;
 constexpr int kLastLevelSide_px = 160;
-constexpr double kWindow = 0.42;          // half window over a square's side
+constexpr double kWindow = 0.75;          // half window over a square's side, where squares lie on both sides
+constexpr double kRimWindow = 0.35;       // towards the rim of the board, whose squares may be narrow
 constexpr double kMinHalfWindow_px = 2.0;
-constexpr double kMaxHalfWindow_px = 16;  // on the level where the board was found
+constexpr double kMaxHalfWindow_px = 28;  // on the level where the board was found
 constexpr double kMaxMove = 0.3;          // of a square, from the lattice to the refined corner
 constexpr double kMaxBend = 0.12;         // of a square, between a corner and the middle of its neighbours
 
@@ -64,10 +65,10 @@ LevelSearch search_level(ImageView<const std::uint8_t> grey, const Board& board)
     return result;
 }
 
-Point2 half_window(Point2 step, double scale)
+Point2 half_window(Point2 step, bool at_rim, double scale)
 {
     const double side = length(step);
-    const double half = std::clamp(kWindow * side, kMinHalfWindow_px, kMaxHalfWindow_px * scale);
+    const double half = std::clamp((at_rim ? kRimWindow : kWindow) * side, kMinHalfWindow_px, kMaxHalfWindow_px * scale);
     return (half / side) * step;
 }
 
@@ -79,8 +80,10 @@ bool refine(const GreyLevel& level, double scale, CornerGrid& grid)
             const Point2 x_step = grid.x_step(col, row);
             const Point2 y_step = grid.y_step(col, row);
             const double max_move = std::max(1.5, kMaxMove * std::min(length(x_step), length(y_step)));
-            const std::optional<Point2> at = refine_crossing(level, grid.at(col, row), half_window(x_step, scale),
-                                                             half_window(y_step, scale), max_move);
+            const std::optional<Point2> at = refine_crossing(level, grid.at(col, row),
+                                                             half_window(x_step, col == 0 || col + 1 == grid.cols, scale),
+                                                             half_window(y_step, row == 0 || row + 1 == grid.rows, scale),
+                                                             max_move);
             if (!at)
                 return false;
             refined.push_back(*at);
