@@ -1,10 +1,10 @@
 #include "miss.h"
 
+#include "words.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 
 namespace dicot::calibration {
 
@@ -14,17 +14,6 @@ constexpr double kLineCounts = 0.5;      // of a line, from which on it counts a
 constexpr double kBorderReach = 0.75;    // of a step beyond the last line, where the next one would be
 constexpr std::size_t kFewCorners = 9;
 constexpr int kMinContrast = 24;         // grey levels between the 1st and the 99th percentile
-
-std::string text(const char* format, ...) __attribute__((format(printf, 1, 2)));
-std::string text(const char* format, ...)
-{
-    std::array<char, 300> buffer{};
-    va_list arguments;
-    va_start(arguments, format);
-    std::vsnprintf(buffer.data(), buffer.size(), format, arguments);
-    va_end(arguments);
-    return buffer.data();
-}
 
 int count_in_line(const Lattice& lattice, bool column, int k)
 {

@@ -3,12 +3,11 @@
 #include "bundle.h"
 #include "closed_form.h"
 #include "lens_fit.h"
+#include "words.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 
 namespace dicot::calibration {
 
@@ -24,17 +23,6 @@ constexpr double kRoughLoss_px = 1.5;
 constexpr double kLossDeviations = 3;
 constexpr double kLeastDeviation_px = 0.01;
 constexpr int kMaxIterations = 80;
-
-std::string text(const char* format, ...) __attribute__((format(printf, 1, 2)));
-std::string text(const char* format, ...)
-{
-    std::array<char, 300> buffer{};
-    va_list arguments;
-    va_start(arguments, format);
-    std::vsnprintf(buffer.data(), buffer.size(), format, arguments);
-    va_end(arguments);
-    return buffer.data();
-}
 
 Status check_side(const CalibrationTask& task, std::size_t index, const std::vector<Point2>& corners, const char* side)
 {
