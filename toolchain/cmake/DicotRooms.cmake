@@ -7,7 +7,7 @@
 # After configuration of all rooms the link graph is walked and a forbidden edge stops the configuration.
 
 set(DICOT_MAY_KNOW_base "")
-set(DICOT_MAY_KNOW_os "base")
+set(DICOT_MAY_KNOW_os "base;os")
 set(DICOT_MAY_KNOW_picture "base;os")
 set(DICOT_MAY_KNOW_algo "base;algo")
 set(DICOT_MAY_KNOW_drivers "base;os;picture;drivers")

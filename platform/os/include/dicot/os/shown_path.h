@@ -1,0 +1,16 @@
+// Paths in sentences.
+#pragma once
+
+#include <cstring>
+
+namespace dicot {
+
+/// The end of a path: as much of it as leaves room for the rest of a Status's sentence.
+inline const char* shown_path(const char* path) noexcept
+{
+    constexpr std::size_t kShown = 200;
+    const std::size_t length = std::strlen(path);
+    return length > kShown ? path + (length - kShown) : path;
+}
+
+} // namespace dicot

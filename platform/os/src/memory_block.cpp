@@ -1,0 +1,39 @@
+#include "dicot/os/memory_block.h"
+
+#include <utility>
+
+#include <sys/mman.h>
+
+namespace dicot {
+
+MemoryBlock::MemoryBlock(MemoryBlock&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
+
+MemoryBlock& MemoryBlock::operator=(MemoryBlock&& other) noexcept
+{
+    std::swap(bytes_, other.bytes_);
+    return *this;
+}
+
+MemoryBlock::~MemoryBlock()
+{
+    if (!bytes_.empty())
+        ::munmap(bytes_.data(), bytes_.size());
+}
+
+Result<MemoryBlock> MemoryBlock::map(std::size_t bytes, Pages pages) noexcept
+{
+    MemoryBlock block;
+    if (bytes == 0)
+        return block;
+    const int populate = pages == Pages::kResident ? MAP_POPULATE : 0;
+    void* const start = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | populate, -1, 0);
+    if (start == MAP_FAILED)
+        return failure(Fault::kOsError,
+                       "the system refuses %zu MiB of memory; use smaller pictures or fewer disparities, or end other "
+                       "programs",
+                       bytes / (1024 * 1024) + (bytes % (1024 * 1024) != 0 ? 1 : 0));
+    block.bytes_ = {static_cast<std::byte*>(start), bytes};
+    return block;
+}
+
+} // namespace dicot
