@@ -20,7 +20,8 @@ constexpr std::size_t kMostSaddles = 2500;
 constexpr int kFirstLevelSide_px = 1600;
 constexpr int kLastLevelSide_px = 160;
 constexpr double kWindow = 0.75;          // half window over a square's side, where squares lie on both sides
-constexpr double kRimWindow = 0.35;       // towards the rim of the board, whose squares may be narrow
+constexpr double kLeastRimWindow = 0.25;  // towards the rim of the board, whose squares may be narrow
+constexpr double kSmear_px = 3;           // kept clear of the rim, for the edge there is not sharp
 constexpr double kMinHalfWindow_px = 2.0;
 constexpr double kMaxHalfWindow_px = 28;  // on the level where the board was found
 constexpr double kMaxMove = 0.3;          // of a square, from the lattice to the refined corner
@@ -65,10 +66,32 @@ LevelSearch search_level(ImageView<const std::uint8_t> grey, const Board& board)
     return result;
 }
 
-Point2 half_window(Point2 step, bool at_rim, double scale)
+/// How far the edge that leaves `at` along `outwards` (one square's step) goes on, as a share of the step: the squares at the
+/// rim of a board may be narrow. `across` is the step along the other edge.
+double rim_share(const GreyLevel& level, Point2 at, Point2 outwards, Point2 across)
+{
+    constexpr int kProbes = 20;
+    constexpr double kReference = 0.2;
+    constexpr double kStillEdge = 0.5; // of the contrast at the reference
+    const auto contrast = [&](double share) {
+        const Point2 p = at + share * outwards + 0.22 * across;
+        const Point2 q = at + share * outwards - 0.22 * across;
+        return static_cast<double>(level.sample(p.x, p.y) - level.sample(q.x, q.y));
+    };
+    const double needed = kStillEdge * contrast(kReference);
+    for (int k = 1; k <= kProbes; ++k) {
+        const double share = kReference + (1 - kReference) * k / kProbes;
+        const Point2 p = at + share * outwards;
+        if (!level.contains(p.x, p.y, 1) || (needed > 0 ? contrast(share) < needed : contrast(share) > needed))
+            return share - (1 - kReference) / kProbes;
+    }
+    return 1;
+}
+
+Point2 half_window(Point2 step, double share, double scale)
 {
     const double side = length(step);
-    const double half = std::clamp((at_rim ? kRimWindow : kWindow) * side, kMinHalfWindow_px, kMaxHalfWindow_px * scale);
+    const double half = std::clamp(share * side, kMinHalfWindow_px, kMaxHalfWindow_px * scale);
     return (half / side) * step;
 }
 
@@ -77,16 +100,23 @@ bool refine(const GreyLevel& level, double scale, CornerGrid& grid)
     std::vector<Point2> refined;
     for (int row = 0; row < grid.rows; ++row)
         for (int col = 0; col < grid.cols; ++col) {
+            const Point2 at = grid.at(col, row);
             const Point2 x_step = grid.x_step(col, row);
             const Point2 y_step = grid.y_step(col, row);
+            const auto share = [&](int position, int count, Point2 along, Point2 across) {
+                if (position > 0 && position + 1 < count)
+                    return kWindow;
+                const Point2 outwards = (position == 0 ? -1.0 : 1.0) * along;
+                const double clear = kSmear_px * scale / length(along);
+                return std::clamp(rim_share(level, at, outwards, across) - clear, kLeastRimWindow, kWindow);
+            };
             const double max_move = std::max(1.5, kMaxMove * std::min(length(x_step), length(y_step)));
-            const std::optional<Point2> at = refine_crossing(level, grid.at(col, row),
-                                                             half_window(x_step, col == 0 || col + 1 == grid.cols, scale),
-                                                             half_window(y_step, row == 0 || row + 1 == grid.rows, scale),
-                                                             max_move);
-            if (!at)
+            const std::optional<Point2> exact =
+                refine_crossing(level, at, half_window(x_step, share(col, grid.cols, x_step, y_step), scale),
+                                half_window(y_step, share(row, grid.rows, y_step, x_step), scale), max_move);
+            if (!exact)
                 return false;
-            refined.push_back(*at);
+            refined.push_back(*exact);
         }
     grid.corners = std::move(refined);
     return true;

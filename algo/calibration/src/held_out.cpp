@@ -47,7 +47,7 @@ std::optional<BoardFit> measure_board(const StereoRig& rig, const Board& board, 
     const Eigen::Matrix3d turn = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
 
     BoardFit fit;
-    fit.scale = svd.singularValues().dot(sign) / spread;
+    fit.scale = (turn.transpose() * mixed).trace() / spread;
     fit.distance_mm = measured_mean.norm();
     for (std::size_t k = 0; k < truth.size(); ++k)
         fit.shape_mm +=

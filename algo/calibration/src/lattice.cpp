@@ -18,6 +18,9 @@ constexpr double kNearPrediction = 0.28;  // of the spacing
 constexpr double kEdgeContrast = 0.2;     // of the weaker crossing's contrast
 constexpr double kWeakContrast = 4;       // grey levels, where the lattice says that a crossing must be
 constexpr double kMinSpacing_px = 4;
+constexpr std::size_t kSureNodes = 9;     // from which on a lattice's word is taken for a weak crossing
+constexpr double kBend = 0.12;            // of a step, between a corner and the middle of its neighbours
+constexpr double kStraightShare = 0.7;    // of the corners of a true board bend less
 constexpr int kTries = 12;                // crossings looked at, nearest first, before an edge counts as ended
 constexpr double kSettledContrast = 0.5;  // of a whole board's contrast, below which no better board is looked for
 
@@ -84,7 +87,7 @@ public:
         place({0, 0}, {first.at, first.a, first.b, true, first.contrast});
         taken_[seed] = true;
         follow_edges();
-        while (nodes_.size() >= 4 && fill_predicted())
+        while (nodes_.size() >= 4 && lies_straight(nodes_) && fill_predicted())
             follow_edges();
         return std::move(nodes_);
     }
@@ -283,6 +286,8 @@ private:
             place(cell, *node);
             return true;
         }
+        if (nodes_.size() < kSureNodes)
+            return false;
         const double reach = std::max(0.35 * where.spacing_px, 2.5);
         const std::optional<Point2> at = refine_crossing(level_, where.at, reach * from.u, reach * from.v,
                                                          kNearPrediction * where.spacing_px);
@@ -327,6 +332,23 @@ Extent extent_of(const Lattice& lattice)
     return e;
 }
 
+bool lies_straight(const Lattice& lattice)
+{
+    int straight = 0;
+    int all = 0;
+    for (const auto& [cell, node] : lattice)
+        for (const Cell step : {Cell{1, 0}, Cell{0, 1}}) {
+            const auto before = lattice.find({cell.i - step.i, cell.j - step.j});
+            const auto after = lattice.find({cell.i + step.i, cell.j + step.j});
+            if (before == lattice.end() || after == lattice.end())
+                continue;
+            const Point2 bend = 0.5 * (before->second.at + after->second.at) - node.at;
+            straight += length(bend) < kBend * 0.5 * length(after->second.at - before->second.at) ? 1 : 0;
+            ++all;
+        }
+    return straight >= kStraightShare * all;
+}
+
 std::vector<Lattice> grow_lattices(const GreyLevel& level, const std::vector<Saddle>& saddles, std::size_t whole_nodes,
                                    int max_side)
 {
@@ -342,7 +364,7 @@ std::vector<Lattice> grow_lattices(const GreyLevel& level, const std::vector<Sad
         Lattice lattice = Growth(level, saddles, near, taken, max_side).from(seed);
         if (lattice.size() >= whole_nodes)
             settled_contrast = std::max(settled_contrast, kSettledContrast * saddles[seed].contrast);
-        if (lattice.size() >= kMinNodes)
+        if (lattice.size() >= kMinNodes && lies_straight(lattice))
             lattices.push_back(std::move(lattice));
         else
             taken = std::move(before); // a bad seed must not take crossings from a good one

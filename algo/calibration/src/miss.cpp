@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kLineCounts = 0.5;      // of a line, from which on it counts as found
 constexpr double kBorderReach = 0.75;    // of a step beyond the last line, where the next one would be
-constexpr std::size_t kFewCorners = 9;
+constexpr double kFewShare = 0.25;       // of the board's corners: texture joins up that many
 constexpr int kMinContrast = 24;         // grey levels between the 1st and the 99th percentile
 
 int count_in_line(const Lattice& lattice, bool column, int k)
@@ -115,12 +115,15 @@ std::string explain_picture(ImageView<const std::uint8_t> grey)
 
 std::string explain_miss(const Lattice& best, bool larger_board, const Board& board, int width, int height)
 {
-    if (best.size() < kFewCorners)
-        return text("no chessboard of %d x %d inner corners found; is it whole in the picture, sharp and evenly lit?",
+    const std::string nothing = text("no chessboard of %d x %d inner corners found; is it whole in the picture, sharp and evenly lit?",
                     board.cols, board.rows);
+    if (static_cast<double>(best.size()) < kFewShare * board.corner_count())
+        return nothing;
     const Extent e = trimmed(best);
     const int wide = e.i1 - e.i0 + 1;
     const int high = e.j1 - e.j0 + 1;
+    if (std::min(wide, high) < kMinBoardSide)
+        return nothing;
     // Rows are the lines that lie flatter in the picture; on an oblong board, those that fit its numbers better.
     const Node& first = best.begin()->second;
     bool turned = std::abs(first.u.x) < std::abs(first.v.x);
@@ -131,10 +134,12 @@ std::string explain_miss(const Lattice& best, bool larger_board, const Board& bo
     }
     const int cols = turned ? high : wide;
     const int rows = turned ? wide : high;
-    if (larger_board || cols > board.cols || rows > board.rows)
+    if (larger_board || (cols >= board.cols && rows >= board.rows && cols * rows > board.corner_count()))
         return text("the board has at least %d x %d inner corners, not %d x %d; check --corners",
                     std::max(cols, larger_board ? board.cols : cols), rows, board.cols, board.rows);
 
+    if (cols > board.cols || rows > board.rows)
+        return nothing;
     const bool rows_missing = rows < board.rows;
     const bool cols_missing = cols < board.cols;
     if (!rows_missing && !cols_missing)
