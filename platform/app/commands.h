@@ -5,6 +5,11 @@
 
 namespace dicot::app {
 
+void add_bench(CLI::App& program, Command& chosen);
 void add_match(CLI::App& program, Command& chosen);
+void add_process(CLI::App& program, Command& chosen);
+void add_export(CLI::App& program, Command& chosen);
+void add_info(CLI::App& program, Command& chosen);
+void add_memory(CLI::App& program, Command& chosen);
 
 } // namespace dicot::app

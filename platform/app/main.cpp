@@ -18,7 +18,12 @@ int main(int argc, char** argv)
     program.require_subcommand(1);
 
     app::Command chosen;
+    app::add_bench(program, chosen);
     app::add_match(program, chosen);
+    app::add_process(program, chosen);
+    app::add_export(program, chosen);
+    app::add_info(program, chosen);
+    app::add_memory(program, chosen);
 
     try {
         program.parse(argc, argv);

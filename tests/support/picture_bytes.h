@@ -9,7 +9,10 @@
 
 namespace dicot::test {
 
-inline void append(Bytes& to, const Bytes& more) { to.insert(to.end(), more.begin(), more.end()); }
+inline void append(Bytes& to, const Bytes& more)
+{
+    to.insert(to.end(), more.begin(), more.end());
+}
 inline void append32(Bytes& to, std::uint32_t value)
 {
     for (int shift = 24; shift >= 0; shift -= 8)
@@ -125,6 +128,9 @@ inline Bytes flat_jpeg(const std::vector<int>& levels)
     return file;
 }
 
-inline Bytes text_bytes(const std::string& text) { return Bytes(text.begin(), text.end()); }
+inline Bytes text_bytes(const std::string& text)
+{
+    return Bytes(text.begin(), text.end());
+}
 
 } // namespace dicot::test

@@ -29,7 +29,8 @@ struct Block
     }
 };
 
-/// What these tests do on purpose (deleting twice, deleting what has gone) is hidden from the compiler, which knows better.
+/// What these tests do on purpose (deleting twice, deleting what has gone) is hidden from the compiler, which knows
+/// better.
 void (*volatile give_back)(void*) = [](void* block) { ::operator delete(block); };
 volatile std::size_t impossible = SIZE_MAX - 8;
 
@@ -98,19 +99,19 @@ TEST_F(HeapGate, EveryFormOfNewIsServedFromTheLeaseAndAligned)
             ::operator new[](100),
             ::operator new(100, std::nothrow),
             ::operator new[](100, std::nothrow),
-            ::operator new(100, std::align_val_t{64}),
+            ::operator new (100, std::align_val_t{64}),
             ::operator new[](100, std::align_val_t{128}),
-            ::operator new(100, std::align_val_t{4096}, std::nothrow),
+            ::operator new (100, std::align_val_t{4096}, std::nothrow),
             new Wide,
         };
         used = lent.used_bytes();
         ::operator delete(blocks[0]);
-        ::operator delete[](blocks[1], std::size_t{100});
+        ::operator delete[](blocks[1]);
         ::operator delete(blocks[2], std::nothrow);
         ::operator delete[](blocks[3], std::nothrow);
-        ::operator delete(blocks[4], std::align_val_t{64});
-        ::operator delete[](blocks[5], std::size_t{100}, std::align_val_t{128});
-        ::operator delete(blocks[6], std::align_val_t{4096}, std::nothrow);
+        ::operator delete (blocks[4], std::align_val_t{64});
+        ::operator delete[](blocks[5], std::align_val_t{128});
+        ::operator delete (blocks[6], std::align_val_t{4096}, std::nothrow);
         delete static_cast<Wide*>(blocks[7]);
         left = lent.used_bytes();
         heap_gate::unseal();

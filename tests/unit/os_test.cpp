@@ -78,7 +78,9 @@ TEST_F(OutputFileTest, ReplacedFileKeepsItsPermissionsAndALinkStaysALink)
     ASSERT_TRUE(file_.commit().ok());
     EXPECT_TRUE(std::filesystem::is_symlink(link));
     EXPECT_EQ(test::bytes_of(real), (test::Bytes{'n', 'e', 'w'}));
-    struct stat what{};
+    struct stat what
+    {
+    };
     ASSERT_EQ(::stat(real.c_str(), &what), 0);
     EXPECT_EQ(what.st_mode & 0777U, 0640U);
 }
@@ -220,6 +222,48 @@ TEST(InputFile, RefusesWhatIsNoFile)
     }
 }
 
+/// Runs `act` in a process without root's powers and gives the exit code that it returns.
+template <typename Act>
+int as_nobody(const Act& act)
+{
+    const pid_t child = ::fork();
+    if (child == 0) {
+        if (::geteuid() == 0 && ::seteuid(65534) != 0)
+            ::_exit(1);
+        ::_exit(act());
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WEXITSTATUS(status);
+}
+
+TEST(Permissions, AreRespectedAndToldInBothDirections)
+{
+    const test::TempFolder folder;
+    const std::string secret = folder.write("secret", std::string("x"));
+    const std::string out = folder.path("out");
+    ASSERT_EQ(::chmod(secret.c_str(), 0), 0);
+    ASSERT_EQ(::chmod(folder.path("").c_str(), 0555), 0);
+    const auto told = [](const Status& status) {
+        return std::strstr(status.message(), "no permission") != nullptr ? status.exit_code() : 2;
+    };
+    EXPECT_EQ(as_nobody([&] {
+                  InputFile file;
+                  return told(file.open(secret.c_str()));
+              }),
+              static_cast<int>(Fault::kNoInput));
+    for (const std::string& target : {out, secret}) {
+        EXPECT_EQ(as_nobody([&] {
+                      OutputFile file;
+                      return told(file.open(target.c_str()));
+                  }),
+                  static_cast<int>(Fault::kCannotCreate))
+            << target;
+    }
+    ASSERT_EQ(::chmod(folder.path("").c_str(), 0755), 0);
+    EXPECT_EQ(folder.files(), 1U);
+}
+
 TEST(ShownPath, LeavesRoomForTheSentence)
 {
     EXPECT_STREQ(shown_path("left.png"), "left.png");
@@ -234,7 +278,8 @@ TEST(MemoryBlock, IsZeroedPageAlignedAndAsLargeAsAsked)
     ASSERT_TRUE(block.ok());
     const std::span<std::byte> bytes = block.value().bytes();
     EXPECT_EQ(bytes.size(), 100'001U);
-    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(bytes.data()) % static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE)), 0U);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(bytes.data()) % static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE)),
+              0U);
     for (std::byte& byte : bytes) {
         ASSERT_EQ(byte, std::byte{0});
         byte = std::byte{0xA5};

@@ -19,7 +19,10 @@ namespace {
 using test::Bytes;
 using testing::HasSubstr;
 
-std::string corpus(const std::string& name) { return std::string(DICOT_PICTURE_CORPUS) + "/" + name; }
+std::string corpus(const std::string& name)
+{
+    return std::string(DICOT_PICTURE_CORPUS) + "/" + name;
+}
 
 struct Picture
 {
@@ -104,7 +107,10 @@ INSTANTIATE_TEST_SUITE_P(Corpus, EveryFile,
                              return name;
                          });
 
-TEST(Corpus, CmykIsRefused) { EXPECT_THAT(read_file(corpus("cmyk.jpg")).status.message(), HasSubstr("CMYK")); }
+TEST(Corpus, CmykIsRefused)
+{
+    EXPECT_THAT(read_file(corpus("cmyk.jpg")).status.message(), HasSubstr("CMYK"));
+}
 
 TEST(Corpus, LosslessFormsOfOnePictureAgree)
 {
@@ -156,9 +162,8 @@ TEST(Bomb, ASmallJpegThatAsksForMuchMemoryIsRefusedBeforeItTakesIt)
     const Result<MemoryBlock> block = MemoryBlock::map(std::size_t{16384} * 4096 * 3);
     ASSERT_TRUE(block.ok());
     const std::uint64_t before = process_memory().value().peak_bytes;
-    const Status status = read_picture_bytes(
-        std::as_bytes(std::span{bomb}), "bomb.jpg",
-        {reinterpret_cast<Rgb8*>(block.value().bytes().data()), 16384, 4096});
+    const Status status = read_picture_bytes(std::as_bytes(std::span{bomb}), "bomb.jpg",
+                                             {reinterpret_cast<Rgb8*>(block.value().bytes().data()), 16384, 4096});
     EXPECT_EQ(status.fault(), Fault::kBadData);
     EXPECT_THAT(status.message(), HasSubstr("bomb.jpg: decoding this JPEG takes more than 64 MiB"));
     EXPECT_LT(process_memory().value().peak_bytes, before + (std::uint64_t{24} << 20));

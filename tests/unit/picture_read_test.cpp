@@ -17,7 +17,10 @@ using test::text_bytes;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-std::span<const std::byte> view(const Bytes& file) { return std::as_bytes(std::span{file}); }
+std::span<const std::byte> view(const Bytes& file)
+{
+    return std::as_bytes(std::span{file});
+}
 
 struct Outcome
 {
@@ -54,8 +57,13 @@ TEST(ReadPng, ColourGreyAndPaletteGiveTheFilesNumbers)
                 ElementsAre(Rgb8{10, 20, 30}, Rgb8{255, 0, 7}));
     EXPECT_THAT(read_well(PngFile{.width = 2, .colour_type = 0, .raster = {0, 77, 200}}.bytes()).pixels,
                 ElementsAre(Rgb8{77, 77, 77}, Rgb8{200, 200, 200}));
-    EXPECT_THAT(read_well(PngFile{.width = 3, .bits = 2, .colour_type = 3, .palette = {1, 2, 3, 40, 50, 60}, .raster = {0, 0b01000100}}.bytes()).pixels,
-                ElementsAre(Rgb8{40, 50, 60}, Rgb8{1, 2, 3}, Rgb8{40, 50, 60}));
+    EXPECT_THAT(
+        read_well(
+            PngFile{
+                .width = 3, .bits = 2, .colour_type = 3, .palette = {1, 2, 3, 40, 50, 60}, .raster = {0, 0b01000100}}
+                .bytes())
+            .pixels,
+        ElementsAre(Rgb8{40, 50, 60}, Rgb8{1, 2, 3}, Rgb8{40, 50, 60}));
     EXPECT_THAT(read_well(PngFile{.width = 4, .bits = 1, .colour_type = 0, .raster = {0, 0b10100000}}.bytes()).pixels,
                 ElementsAre(Rgb8{255, 255, 255}, Rgb8{0, 0, 0}, Rgb8{255, 255, 255}, Rgb8{0, 0, 0}));
     EXPECT_THAT(read_well(PngFile{.width = 2, .bits = 4, .colour_type = 0, .raster = {0, 0x3C}}.bytes()).pixels,
@@ -71,7 +79,8 @@ TEST(ReadPng, TransparencyIsComposedOnBlack)
     for (int i = 0; i < 256; ++i) {
         const int value = i * 7 % 256;
         const int alpha = i;
-        test::append(rgba, {static_cast<std::uint8_t>(value), 255, static_cast<std::uint8_t>(255 - value), static_cast<std::uint8_t>(alpha)});
+        test::append(rgba, {static_cast<std::uint8_t>(value), 255, static_cast<std::uint8_t>(255 - value),
+                            static_cast<std::uint8_t>(alpha)});
         test::append(grey_alpha, {static_cast<std::uint8_t>(value), static_cast<std::uint8_t>(alpha)});
         expected_rgba.push_back({composed(value, alpha), composed(255, alpha), composed(255 - value, alpha)});
         const std::uint8_t grey = composed(value, alpha);
@@ -79,10 +88,17 @@ TEST(ReadPng, TransparencyIsComposedOnBlack)
     }
     EXPECT_EQ(read_well(PngFile{.width = 256, .colour_type = 6, .raster = rgba}.bytes()).pixels, expected_rgba);
     EXPECT_EQ(read_well(PngFile{.width = 256, .colour_type = 4, .raster = grey_alpha}.bytes()).pixels, expected_grey);
-    EXPECT_THAT(read_well(PngFile{.width = 2, .colour_type = 3, .palette = {100, 200, 50, 9, 8, 7}, .transparency = {51}, .raster = {0, 0, 1}}.bytes()).pixels,
+    EXPECT_THAT(read_well(PngFile{.width = 2,
+                                  .colour_type = 3,
+                                  .palette = {100, 200, 50, 9, 8, 7},
+                                  .transparency = {51},
+                                  .raster = {0, 0, 1}}
+                              .bytes())
+                    .pixels,
                 ElementsAre(Rgb8{20, 40, 10}, Rgb8{9, 8, 7}));
-    EXPECT_THAT(read_well(PngFile{.width = 2, .colour_type = 0, .transparency = {0, 90}, .raster = {0, 90, 91}}.bytes()).pixels,
-                ElementsAre(Rgb8{0, 0, 0}, Rgb8{91, 91, 91}));
+    EXPECT_THAT(
+        read_well(PngFile{.width = 2, .colour_type = 0, .transparency = {0, 90}, .raster = {0, 90, 91}}.bytes()).pixels,
+        ElementsAre(Rgb8{0, 0, 0}, Rgb8{91, 91, 91}));
 }
 
 TEST(ReadPicture, SixteenBitsAreRoundedTheSameInPngAndPgm)
@@ -96,7 +112,8 @@ TEST(ReadPicture, SixteenBitsAreRoundedTheSameInPngAndPgm)
             test::append(pgm, {static_cast<std::uint8_t>(y), static_cast<std::uint8_t>(x)});
         }
     }
-    const Outcome png = read_well(PngFile{.width = 256, .height = 256, .bits = 16, .colour_type = 0, .raster = raster}.bytes());
+    const Outcome png =
+        read_well(PngFile{.width = 256, .height = 256, .bits = 16, .colour_type = 0, .raster = raster}.bytes());
     const Outcome pnm = read_well(pgm);
     for (int value = 0; value < 65536; ++value) {
         const auto expected = static_cast<std::uint8_t>(std::lround(value * 255.0 / 65535.0));
@@ -110,7 +127,8 @@ TEST(ReadPng, InterlacedIsTheSamePicture)
     constexpr std::uint32_t kWidth = 13;
     constexpr std::uint32_t kHeight = 9;
     const auto append_pixel = [](Bytes& to, std::uint32_t x, std::uint32_t y) {
-        test::append(to, {static_cast<std::uint8_t>(x * 19), static_cast<std::uint8_t>(y * 27), static_cast<std::uint8_t>(x * y)});
+        test::append(to, {static_cast<std::uint8_t>(x * 19), static_cast<std::uint8_t>(y * 27),
+                          static_cast<std::uint8_t>(x * y)});
     };
     Bytes plain;
     for (std::uint32_t y = 0; y < kHeight; ++y) {
@@ -130,14 +148,17 @@ TEST(ReadPng, InterlacedIsTheSamePicture)
         }
     }
     const Outcome expected = read_well(PngFile{.width = kWidth, .height = kHeight, .raster = plain}.bytes());
-    const Outcome got = read_well(PngFile{.width = kWidth, .height = kHeight, .interlaced = true, .raster = interlaced}.bytes());
+    const Outcome got =
+        read_well(PngFile{.width = kWidth, .height = kHeight, .interlaced = true, .raster = interlaced}.bytes());
     EXPECT_EQ(got.pixels, expected.pixels);
     EXPECT_EQ(got.pixels[2 * kWidth + 3], (Rgb8{57, 54, 6}));
 }
 
 TEST(ReadPng, AnyChangedByteIsRefused)
 {
-    const Bytes good = PngFile{.width = 3, .height = 2, .raster = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9}}.bytes();
+    const Bytes good =
+        PngFile{.width = 3, .height = 2, .raster = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9}}
+            .bytes();
     ASSERT_TRUE(read(good).status.ok());
     for (std::size_t i = 0; i < good.size(); ++i) {
         for (const int bit : {0, 5, 7}) {
@@ -159,7 +180,8 @@ TEST(ReadJpeg, GreyIsTheBlocksLevel)
 TEST(ReadJpeg, ColourFollowsTheJfifEquations)
 {
     // R = Y + 1.402 (Cr - 128), G = Y - 0.344136 (Cb - 128) - 0.714136 (Cr - 128), B = Y + 1.772 (Cb - 128), clamped.
-    for (const std::vector<int>& levels : {std::vector<int>{70, -64, -64}, {-64, 64, 64}, {90, 70, -110}, {64, -100, 80}}) {
+    for (const std::vector<int>& levels :
+         {std::vector<int>{70, -64, -64}, {-64, 64, 64}, {90, 70, -110}, {64, -100, 80}}) {
         const double luma = 128.0 + levels[0];
         const auto channel = [](double value) { return static_cast<int>(std::lround(std::clamp(value, 0.0, 255.0))); };
         const Outcome picture = read_well(test::flat_jpeg(levels));
@@ -211,9 +233,10 @@ TEST(ReadPnm, BinaryAndPlainColourAndGreyWithComments)
 
 TEST(ReadPnm, NonsenseIsRefused)
 {
-    for (const char* text : {"P3 1 1 255 1 2 300", "P3 1 1 0 0 0 0", "P3 1 1 65536 1 1 1", "P3 x 1 255 1 2 3", "P3 -1 1 255 1 2 3",
-                             "P3 1 1 255 1 2 x", "P3 1 1 255 1 2", "P6 0 5 255\n", "P5 1 1", "P5 1 1 255", "P5 1 1 255\n",
-                             "P3 1 1 255 1 2 3x", "P512 3 255 ", "P3 99999999999999999999 1 255 1 2 3"})
+    for (const char* text :
+         {"P3 1 1 255 1 2 300", "P3 1 1 0 0 0 0", "P3 1 1 65536 1 1 1", "P3 x 1 255 1 2 3", "P3 -1 1 255 1 2 3",
+          "P3 1 1 255 1 2 x", "P3 1 1 255 1 2", "P6 0 5 255\n", "P5 1 1", "P5 1 1 255", "P5 1 1 255\n",
+          "P3 1 1 255 1 2 3x", "P512 3 255 ", "P3 99999999999999999999 1 255 1 2 3"})
         EXPECT_EQ(read(text_bytes(text)).status.fault(), Fault::kBadData) << text;
 }
 

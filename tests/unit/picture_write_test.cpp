@@ -29,7 +29,8 @@ std::vector<Rgb8> leaf()
     std::vector<Rgb8> pixels(kStride * kHeight);
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kStride; ++x)
-            pixels[static_cast<std::size_t>(y * kStride + x)] = {static_cast<std::uint8_t>(40 + 2 * x), static_cast<std::uint8_t>(200 - 3 * y),
+            pixels[static_cast<std::size_t>(y * kStride + x)] = {static_cast<std::uint8_t>(40 + 2 * x),
+                                                                 static_cast<std::uint8_t>(200 - 3 * y),
                                                                  static_cast<std::uint8_t>(30 + x + y)};
     return pixels;
 }
@@ -106,7 +107,8 @@ TEST(WriteJpeg, AFileLargerThanTheBufferIsWhole)
     std::uint32_t state = 1;
     for (Rgb8& pixel : pixels) {
         state = state * 1664525U + 1013904223U;
-        pixel = {static_cast<std::uint8_t>(state >> 24), static_cast<std::uint8_t>(state >> 16), static_cast<std::uint8_t>(state >> 8)};
+        pixel = {static_cast<std::uint8_t>(state >> 24), static_cast<std::uint8_t>(state >> 16),
+                 static_cast<std::uint8_t>(state >> 8)};
     }
     ASSERT_TRUE(write_jpeg(path.c_str(), {pixels.data(), kSide, kSide}, 100).ok());
     EXPECT_GT(test::bytes_of(path).size(), 50'000U);
@@ -148,9 +150,13 @@ TEST(WritePicture, EveryWriterRefusesWhatCannotBeWrittenAndLeavesNothing)
     const ImageView<const Rgb8> picture{pixels.data(), kWidth, kHeight, kStride};
     const std::function<Status(const char*)> writers[] = {
         [&](const char* path) { return write_png(path, picture); },
-        [&](const char* path) { return write_png16(path, {values.data(), kWidth, kHeight}); },
+        [&](const char* path) {
+            return write_png16(path, {values.data(), kWidth, kHeight});
+        },
         [&](const char* path) { return write_jpeg(path, picture, 80); },
-        [&](const char* path) { return write_pfm(path, kWidth, kHeight, [](int, std::span<float> row) { row[0] = 0; }); },
+        [&](const char* path) {
+            return write_pfm(path, kWidth, kHeight, [](int, std::span<float> row) { row[0] = 0; });
+        },
     };
     const std::string below_a_file = folder.write("plain", std::string("x")) + "/out";
     for (const auto& write : writers) {

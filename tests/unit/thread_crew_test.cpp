@@ -19,9 +19,11 @@ TEST(ThreadCrew, EveryTaskRunsExactlyOnceInEveryRound)
         EXPECT_EQ(crew.size(), threads);
         for (int round = 0; round < 400; ++round) {
             const int count = round % 23;
-            std::vector<int> runs(static_cast<std::size_t>(count), 0); // plain ints: run() itself must order the accesses
+            std::vector<int> runs(static_cast<std::size_t>(count),
+                                  0); // plain ints: run() itself must order the accesses
             crew.run(count, [&](int index) { ++runs[static_cast<std::size_t>(index)]; });
-            EXPECT_EQ(runs, std::vector<int>(static_cast<std::size_t>(count), 1)) << threads << " threads, round " << round;
+            EXPECT_EQ(runs, std::vector<int>(static_cast<std::size_t>(count), 1))
+                << threads << " threads, round " << round;
         }
     }
 }

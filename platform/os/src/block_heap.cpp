@@ -14,10 +14,12 @@ struct BlockHeap::Block
     std::uint32_t previous_units; ///< of the left neighbour; 0 for the first block
     std::uint32_t stamp;          ///< 0 while free
     std::uint32_t unused;
-    Block* next_free;     ///< these two lie in the caller's bytes while the block is in use
+    Block* next_free; ///< these two lie in the caller's bytes while the block is in use
     Block* previous_free;
 
     std::byte* start() noexcept { return reinterpret_cast<std::byte*>(this); }
+    /// Every place that is asked for is a whole number of units from an aligned one.
+    static Block* at(std::byte* start) noexcept { return static_cast<Block*>(static_cast<void*>(start)); }
 };
 
 namespace {
@@ -48,7 +50,7 @@ BlockHeap::BlockHeap(std::span<std::byte> memory) noexcept : serial_(scramble(++
         std::min<std::uint64_t>((memory.size() - skipped) / kUnit, std::numeric_limits<std::uint32_t>::max()));
     begin_ = memory.data() + skipped;
     end_ = begin_ + std::size_t{units} * kUnit;
-    auto* const all = reinterpret_cast<Block*>(begin_);
+    auto* const all = Block::at(begin_);
     all->units = units;
     all->previous_units = 0;
     insert(all);
@@ -72,7 +74,7 @@ std::uint32_t BlockHeap::stamp_of(const Block* block) const noexcept
 BlockHeap::Block* BlockHeap::next_of(Block* block) const noexcept
 {
     std::byte* const next = block->start() + std::size_t{block->units} * kUnit;
-    return next == end_ ? nullptr : reinterpret_cast<Block*>(next);
+    return next == end_ ? nullptr : Block::at(next);
 }
 
 void BlockHeap::insert(Block* block) noexcept
@@ -102,7 +104,8 @@ BlockHeap::Block* BlockHeap::find(std::uint32_t units) noexcept
 {
     // Every block of a bin at or above the one of the rounded-up size is large enough.
     const std::uint32_t step = units < 8 ? 1 : std::uint32_t{1} << (std::bit_width(units) - 4);
-    const std::size_t first = units > std::numeric_limits<std::uint32_t>::max() - step ? kBins : bin_of(units + step - 1);
+    const std::size_t first =
+        units > std::numeric_limits<std::uint32_t>::max() - step ? kBins : bin_of(units + step - 1);
     for (std::size_t word = first / 64; first < kBins && word < occupied_.size(); ++word) {
         const std::uint64_t mask = word == first / 64 ? ~std::uint64_t{0} << (first % 64) : ~std::uint64_t{0};
         if (const std::uint64_t found = occupied_[word] & mask; found != 0)
@@ -117,7 +120,7 @@ BlockHeap::Block* BlockHeap::find(std::uint32_t units) noexcept
 /// Cuts a block that is in no bin to `units` and returns the rest, which is in no bin either and belongs to nobody yet.
 BlockHeap::Block* BlockHeap::split(Block* block, std::uint32_t units) noexcept
 {
-    auto* const rest = reinterpret_cast<Block*>(block->start() + std::size_t{units} * kUnit);
+    auto* const rest = Block::at(block->start() + std::size_t{units} * kUnit);
     rest->units = block->units - units;
     rest->previous_units = units;
     block->units = units;
@@ -167,7 +170,7 @@ void BlockHeap::release(void* given) noexcept
     auto* const payload = static_cast<std::byte*>(given);
     if (payload < begin_ + kHeaderBytes || payload >= end_ || static_cast<std::size_t>(payload - begin_) % kUnit != 0)
         return;
-    auto* block = reinterpret_cast<Block*>(payload - kHeaderBytes);
+    auto* block = Block::at(payload - kHeaderBytes);
     if (block->stamp != stamp_of(block))
         return;
     used_bytes_ -= std::size_t{block->units} * kUnit;
@@ -178,7 +181,7 @@ void BlockHeap::release(void* given) noexcept
         block->units += next->units;
     }
     if (block->previous_units != 0) {
-        auto* const previous = reinterpret_cast<Block*>(block->start() - std::size_t{block->previous_units} * kUnit);
+        auto* const previous = Block::at(block->start() - std::size_t{block->previous_units} * kUnit);
         if (previous->stamp == 0) {
             remove(previous);
             previous->units += block->units;

@@ -14,8 +14,14 @@ std::int64_t microseconds(clockid_t clock) noexcept
 
 } // namespace
 
-std::int64_t monotonic_us() noexcept { return microseconds(CLOCK_MONOTONIC); }
+std::int64_t monotonic_us() noexcept
+{
+    return microseconds(CLOCK_MONOTONIC);
+}
 
-std::int64_t process_cpu_us() noexcept { return microseconds(CLOCK_PROCESS_CPUTIME_ID); }
+std::int64_t process_cpu_us() noexcept
+{
+    return microseconds(CLOCK_PROCESS_CPUTIME_ID);
+}
 
 } // namespace dicot

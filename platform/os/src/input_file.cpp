@@ -37,7 +37,9 @@ Status InputFile::open(const char* path) noexcept
     descriptor_ = ::open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor_ < 0)
         return cannot_open(path, errno);
-    struct stat what{};
+    struct stat what
+    {
+    };
     if (::fstat(descriptor_, &what) != 0)
         return cannot_open(path, errno);
     if (S_ISDIR(what.st_mode))

@@ -44,7 +44,8 @@ public:
     {
         const std::lock_guard lock(mutex_);
         const auto live_end = live_.begin() + static_cast<std::ptrdiff_t>(live_count_);
-        const auto lease = std::find_if(live_.begin(), live_end, [&](const Range& range) { return range.heap == heap; });
+        const auto lease =
+            std::find_if(live_.begin(), live_end, [&](const Range& range) { return range.heap == heap; });
         if (lease == live_end)
             return;
         remember(*lease);
@@ -62,7 +63,8 @@ public:
         if (smallest != nullptr)
             return {true, smallest->heap};
         const auto ended = std::span{ended_}.first(ended_count_);
-        return {std::any_of(ended.begin(), ended.end(), [&](const Range& range) { return range.holds(address); }), nullptr};
+        return {std::any_of(ended.begin(), ended.end(), [&](const Range& range) { return range.holds(address); }),
+                nullptr};
     }
 
     void forget_ended(std::uintptr_t address) noexcept
@@ -77,7 +79,8 @@ private:
     void drop_ended(std::size_t i) noexcept
     {
         std::copy(ended_.begin() + static_cast<std::ptrdiff_t>(i) + 1,
-                  ended_.begin() + static_cast<std::ptrdiff_t>(ended_count_), ended_.begin() + static_cast<std::ptrdiff_t>(i));
+                  ended_.begin() + static_cast<std::ptrdiff_t>(ended_count_),
+                  ended_.begin() + static_cast<std::ptrdiff_t>(i));
         --ended_count_;
     }
 
@@ -126,7 +129,10 @@ LentHeap::~LentHeap()
     leases.end(&heap_);
 }
 
-BlockHeap* LentHeap::of_this_thread() noexcept { return innermost == nullptr ? nullptr : &innermost->heap_; }
+BlockHeap* LentHeap::of_this_thread() noexcept
+{
+    return innermost == nullptr ? nullptr : &innermost->heap_;
+}
 
 LentHeap::Origin LentHeap::origin_of(const void* block) noexcept
 {

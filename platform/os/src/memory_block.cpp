@@ -5,6 +5,11 @@
 #include <sys/mman.h>
 
 namespace dicot {
+namespace {
+
+constexpr std::size_t kMiB = std::size_t{1024} * 1024;
+
+} // namespace
 
 MemoryBlock::MemoryBlock(MemoryBlock&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
 
@@ -31,7 +36,7 @@ Result<MemoryBlock> MemoryBlock::map(std::size_t bytes, Pages pages) noexcept
         return failure(Fault::kOsError,
                        "the system refuses %zu MiB of memory; use smaller pictures or fewer disparities, or end other "
                        "programs",
-                       bytes / (1024 * 1024) + (bytes % (1024 * 1024) != 0 ? 1 : 0));
+                       bytes / kMiB + (bytes % kMiB != 0 ? 1 : 0));
     block.bytes_ = {static_cast<std::byte*>(start), bytes};
     return block;
 }

@@ -22,7 +22,8 @@ Status cannot_create(const char* path, int error) noexcept
     case ENOENT:
         return failure(Fault::kCannotCreate, "%s: its folder does not exist; make the folder first", shown);
     case ENOTDIR:
-        return failure(Fault::kCannotCreate, "%s: a part of the path is a file and no folder; name another path", shown);
+        return failure(Fault::kCannotCreate, "%s: a part of the path is a file and no folder; name another path",
+                       shown);
     case EACCES:
     case EPERM:
         return failure(Fault::kCannotCreate, "%s: no permission to write there; name another folder", shown);
@@ -51,7 +52,10 @@ int own_stream(const char* path) noexcept
 
 } // namespace
 
-OutputFile::~OutputFile() { abandon(); }
+OutputFile::~OutputFile()
+{
+    abandon();
+}
 
 void OutputFile::abandon() noexcept
 {
@@ -69,13 +73,16 @@ Status OutputFile::open(const char* path) noexcept
     buffered_ = 0;
     if (path[0] == '\0')
         return failure(Fault::kCannotCreate, "the output file has an empty name; name a file");
-    if (std::strlen(path) >= sizeof target_)
+    const std::size_t length = std::strlen(path);
+    if (length >= sizeof target_)
         return cannot_create(path, ENAMETOOLONG);
-    std::strcpy(target_, path);
+    std::memcpy(target_, path, length + 1);
     if (own_stream(path) >= 0)
         return open_direct(path);
 
-    struct stat what{};
+    struct stat what
+    {
+    };
     if (::stat(path, &what) != 0) {
         if (errno != ENOENT)
             return cannot_create(path, errno);
@@ -189,13 +196,12 @@ Status OutputFile::commit() noexcept
 
 Status OutputFile::sync_directory() noexcept
 {
-    char folder[PATH_MAX];
-    std::strcpy(folder, target_);
-    char* const slash = std::strrchr(folder, '/');
-    if (slash == nullptr)
-        std::strcpy(folder, ".");
-    else
-        slash[slash == folder ? 1 : 0] = '\0';
+    char folder[PATH_MAX] = ".";
+    if (const char* const slash = std::strrchr(target_, '/'); slash != nullptr) {
+        const auto length = static_cast<std::size_t>(slash == target_ ? 1 : slash - target_);
+        std::memcpy(folder, target_, length);
+        folder[length] = '\0';
+    }
     const int descriptor = ::open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor < 0)
         return errno == EACCES ? Status{} : io_failure(errno); // a folder one may write to but not list

@@ -14,7 +14,8 @@ ThreadCrew::ThreadCrew(int threads) noexcept
     const int wanted = std::clamp(threads, 1, kMaxThreads) - 1;
     pthread_attr_t attributes;
     pthread_attr_init(&attributes);
-    pthread_attr_setstacksize(&attributes, std::max<std::size_t>(kStackBytes, static_cast<std::size_t>(PTHREAD_STACK_MIN)));
+    pthread_attr_setstacksize(&attributes,
+                              std::max<std::size_t>(kStackBytes, static_cast<std::size_t>(PTHREAD_STACK_MIN)));
     while (helpers_ < wanted) {
         const int error = pthread_create(&threads_[static_cast<std::size_t>(helpers_)], &attributes, &serve, this);
         if (error != 0) {

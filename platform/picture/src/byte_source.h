@@ -12,7 +12,7 @@ namespace dicot {
 class ByteSource
 {
 public:
-    static constexpr std::size_t kBufferBytes = 16 * 1024;
+    static constexpr std::size_t kBufferBytes = std::size_t{16} * 1024;
 
     /// Both are borrowed.
     explicit ByteSource(InputFile& file) noexcept : name_(file.path()), file_(&file) {}

@@ -13,7 +13,7 @@ namespace dicot {
 namespace {
 
 /// A progressive picture keeps all its coefficients while it is decoded: 6 bytes a pixel at the most.
-constexpr long kMaxDecoderBytes = 64L * 1024 * 1024;
+constexpr long kMaxDecoderMiB = 64;
 /// Each scan costs a walk over the whole picture; real files have about ten.
 constexpr int kMaxScans = 100;
 
@@ -30,8 +30,14 @@ struct JpegRead
     std::jmp_buf escape;
 };
 
-JpegRead& reader_of(j_common_ptr jpeg) noexcept { return *static_cast<JpegRead*>(jpeg->client_data); }
-JpegRead& reader_of(j_decompress_ptr jpeg) noexcept { return *static_cast<JpegRead*>(jpeg->client_data); }
+JpegRead& reader_of(j_common_ptr jpeg) noexcept
+{
+    return *static_cast<JpegRead*>(jpeg->client_data);
+}
+JpegRead& reader_of(j_decompress_ptr jpeg) noexcept
+{
+    return *static_cast<JpegRead*>(jpeg->client_data);
+}
 
 [[noreturn]] void leave(JpegRead& read, const Status& why) noexcept
 {
@@ -62,7 +68,7 @@ JpegRead& reader_of(j_decompress_ptr jpeg) noexcept { return *static_cast<JpegRe
     case JERR_OUT_OF_MEMORY:
         leave(read, failure(Fault::kBadData,
                             "%s: decoding this JPEG takes more than %ld MiB; save it as baseline JPEG or PNG", shown,
-                            kMaxDecoderBytes / (1024 * 1024)));
+                            kMaxDecoderMiB));
     default:
         break;
     }
@@ -148,7 +154,7 @@ void run(JpegRead& read)
     read.errors.emit_message = &on_message;
     jpeg.client_data = &read;
     jpeg_create_decompress(&jpeg);
-    jpeg.mem->max_memory_to_use = kMaxDecoderBytes;
+    jpeg.mem->max_memory_to_use = kMaxDecoderMiB * 1024L * 1024L;
     read.progress.progress_monitor = &on_progress;
     jpeg.progress = &read.progress;
     read.input.init_source = &on_init;
@@ -173,7 +179,14 @@ void run(JpegRead& read)
 
 Status decode_jpeg(ByteSource& source, PictureRequest& request) noexcept
 {
-    JpegRead read{.source = source, .request = request, .jpeg = {}, .errors = {}, .input = {}, .progress = {}, .why = {}, .escape = {}};
+    JpegRead read{.source = source,
+                  .request = request,
+                  .jpeg = {},
+                  .errors = {},
+                  .input = {},
+                  .progress = {},
+                  .why = {},
+                  .escape = {}};
     run(read);
     jpeg_destroy_decompress(&read.jpeg);
     return read.why;

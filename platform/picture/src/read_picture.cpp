@@ -20,7 +20,8 @@ Status accept_size(const char* name, std::uint64_t width, std::uint64_t height, 
                        shown, static_cast<unsigned long long>(width), static_cast<unsigned long long>(height),
                        kMaxPictureSide, static_cast<int>(kMaxPicturePixels / 1'000'000));
     request.size = {static_cast<int>(width), static_cast<int>(height)};
-    if (request.into != nullptr && (request.into->width != request.size.width || request.into->height != request.size.height))
+    if (request.into != nullptr &&
+        (request.into->width != request.size.width || request.into->height != request.size.height))
         return failure(Fault::kBadData,
                        "%s: the picture is %d x %d where %d x %d is expected; give pictures of the same size", shown,
                        request.size.width, request.size.height, request.into->width, request.into->height);
@@ -50,8 +51,12 @@ struct Format
 };
 
 constexpr Format kFormats[] = {
-    {"\x89PNG\r\n\x1a\n", &decode_png}, {"\xff\xd8\xff", &decode_jpeg}, {"P2", &decode_pnm},
-    {"P3", &decode_pnm},                {"P5", &decode_pnm},            {"P6", &decode_pnm},
+    {"\x89PNG\r\n\x1a\n", &decode_png},
+    {"\xff\xd8\xff", &decode_jpeg},
+    {"P2", &decode_pnm},
+    {"P3", &decode_pnm},
+    {"P5", &decode_pnm},
+    {"P6", &decode_pnm},
 };
 
 Status decode(ByteSource& source, PictureRequest& request) noexcept

@@ -7,8 +7,14 @@ namespace {
 
 constexpr std::uint32_t kMaxSample = 65535;
 
-bool is_space(int c) noexcept { return c == ' ' || (c >= '\t' && c <= '\r'); }
-bool is_digit(int c) noexcept { return c >= '0' && c <= '9'; }
+bool is_space(int c) noexcept
+{
+    return c == ' ' || (c >= '\t' && c <= '\r');
+}
+bool is_digit(int c) noexcept
+{
+    return c >= '0' && c <= '9';
+}
 
 /// One decimal number and the one character behind it; blanks and comments before it are passed over. Numbers stop
 /// growing at ten digits: whatever that large is refused by its user.

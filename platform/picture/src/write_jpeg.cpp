@@ -24,7 +24,10 @@ struct JpegWrite
     JOCTET buffer[4096];
 };
 
-JpegWrite& writer_of(j_compress_ptr jpeg) noexcept { return *static_cast<JpegWrite*>(jpeg->client_data); }
+JpegWrite& writer_of(j_compress_ptr jpeg) noexcept
+{
+    return *static_cast<JpegWrite*>(jpeg->client_data);
+}
 
 [[noreturn]] void on_error(j_common_ptr jpeg)
 {
@@ -106,7 +109,7 @@ Status write_jpeg(const char* path, ImageView<const Rgb8> picture, int quality) 
     JpegWrite write{.file = file, .jpeg = {}, .errors = {}, .output = {}, .why = {}, .escape = {}, .buffer = {}};
     run(write, picture, quality);
     jpeg_destroy_compress(&write.jpeg);
-    TRY(std::move(write.why));
+    TRY(write.why);
     return file.commit();
 }
 

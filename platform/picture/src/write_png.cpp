@@ -70,7 +70,8 @@ void run(PngWrite& write)
     png_set_write_fn(write.png, &write, &on_write, &on_flush);
     const Rows& rows = write.rows;
     png_set_IHDR(write.png, write.info, static_cast<png_uint_32>(rows.width), static_cast<png_uint_32>(rows.height),
-                 rows.bits, rows.colour_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+                 rows.bits, rows.colour_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
     png_write_info(write.png, write.info);
     if (rows.bits == 16 && std::endian::native == std::endian::little)
         png_set_swap(write.png);
@@ -87,7 +88,7 @@ Status write_rows(const char* path, const Rows& rows) noexcept
     PngWrite write{.file = file, .rows = rows, .png = nullptr, .info = nullptr, .why = {}, .escape = {}};
     run(write);
     png_destroy_write_struct(&write.png, &write.info);
-    TRY(std::move(write.why));
+    TRY(write.why);
     return file.commit();
 }
 
@@ -96,8 +97,8 @@ Status write_rows(const char* path, const Rows& rows) noexcept
 Status write_png(const char* path, ImageView<const Rgb8> picture) noexcept
 {
     return write_rows(path, {reinterpret_cast<const std::uint8_t*>(picture.data),
-                             picture.stride * static_cast<std::ptrdiff_t>(sizeof(Rgb8)), picture.width, picture.height, 8,
-                             PNG_COLOR_TYPE_RGB});
+                             picture.stride * static_cast<std::ptrdiff_t>(sizeof(Rgb8)), picture.width, picture.height,
+                             8, PNG_COLOR_TYPE_RGB});
 }
 
 Status write_png16(const char* path, ImageView<const std::uint16_t> picture) noexcept

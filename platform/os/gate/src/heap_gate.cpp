@@ -12,7 +12,7 @@
 #else
 #define DICOT_HAS_FEATURE(feature) 0
 #endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || DICOT_HAS_FEATURE(address_sanitizer) ||                \
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || DICOT_HAS_FEATURE(address_sanitizer) ||           \
     DICOT_HAS_FEATURE(thread_sanitizer) || DICOT_HAS_FEATURE(memory_sanitizer)
 #define DICOT_GATE_REPLACES 0
 #else
@@ -22,14 +22,22 @@
 namespace dicot::heap_gate {
 namespace {
 
-enum class State { kOpen, kCounting, kStopping };
+enum class State
+{
+    kOpen,
+    kCounting,
+    kStopping
+};
 
 constinit std::atomic<State> state{State::kOpen};
 constinit std::atomic<std::uint64_t> breach_count{0};
 
 } // namespace
 
-bool replaces_operator_new() noexcept { return DICOT_GATE_REPLACES != 0; }
+bool replaces_operator_new() noexcept
+{
+    return DICOT_GATE_REPLACES != 0;
+}
 
 void seal(Breach breach) noexcept
 {
@@ -37,11 +45,20 @@ void seal(Breach breach) noexcept
     state.store(breach == Breach::kStop ? State::kStopping : State::kCounting, std::memory_order_seq_cst);
 }
 
-void unseal() noexcept { state.store(State::kOpen, std::memory_order_seq_cst); }
+void unseal() noexcept
+{
+    state.store(State::kOpen, std::memory_order_seq_cst);
+}
 
-bool sealed() noexcept { return state.load(std::memory_order_relaxed) != State::kOpen; }
+bool sealed() noexcept
+{
+    return state.load(std::memory_order_relaxed) != State::kOpen;
+}
 
-std::uint64_t breaches() noexcept { return breach_count.load(std::memory_order_relaxed); }
+std::uint64_t breaches() noexcept
+{
+    return breach_count.load(std::memory_order_relaxed);
+}
 
 #if DICOT_GATE_REPLACES
 
@@ -50,7 +67,8 @@ namespace {
 /// Without stdio, which may itself allocate.
 [[noreturn]] void stop(std::size_t bytes) noexcept
 {
-    char sentence[160] = "dicot: a fault of dicot: bytes asked of the heap after it was sealed, outside of lent memory: ";
+    char sentence[160] =
+        "dicot: a fault of dicot: bytes asked of the heap after it was sealed, outside of lent memory: ";
     std::size_t length = 0;
     while (sentence[length] != '\0')
         ++length;
@@ -125,12 +143,30 @@ using dicot::heap_gate::serve;
 using dicot::heap_gate::serve_or_throw;
 using dicot::heap_gate::take_back;
 
-void* operator new(std::size_t bytes) { return serve_or_throw(bytes, kPlain); }
-void* operator new[](std::size_t bytes) { return serve_or_throw(bytes, kPlain); }
-void* operator new(std::size_t bytes, std::align_val_t to) { return serve_or_throw(bytes, static_cast<std::size_t>(to)); }
-void* operator new[](std::size_t bytes, std::align_val_t to) { return serve_or_throw(bytes, static_cast<std::size_t>(to)); }
-void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept { return serve(bytes, kPlain); }
-void* operator new[](std::size_t bytes, const std::nothrow_t&) noexcept { return serve(bytes, kPlain); }
+void* operator new(std::size_t bytes)
+{
+    return serve_or_throw(bytes, kPlain);
+}
+void* operator new[](std::size_t bytes)
+{
+    return serve_or_throw(bytes, kPlain);
+}
+void* operator new(std::size_t bytes, std::align_val_t to)
+{
+    return serve_or_throw(bytes, static_cast<std::size_t>(to));
+}
+void* operator new[](std::size_t bytes, std::align_val_t to)
+{
+    return serve_or_throw(bytes, static_cast<std::size_t>(to));
+}
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept
+{
+    return serve(bytes, kPlain);
+}
+void* operator new[](std::size_t bytes, const std::nothrow_t&) noexcept
+{
+    return serve(bytes, kPlain);
+}
 void* operator new(std::size_t bytes, std::align_val_t to, const std::nothrow_t&) noexcept
 {
     return serve(bytes, static_cast<std::size_t>(to));
@@ -140,17 +176,53 @@ void* operator new[](std::size_t bytes, std::align_val_t to, const std::nothrow_
     return serve(bytes, static_cast<std::size_t>(to));
 }
 
-void operator delete(void* block) noexcept { take_back(block); }
-void operator delete[](void* block) noexcept { take_back(block); }
-void operator delete(void* block, std::size_t) noexcept { take_back(block); }
-void operator delete[](void* block, std::size_t) noexcept { take_back(block); }
-void operator delete(void* block, std::align_val_t) noexcept { take_back(block); }
-void operator delete[](void* block, std::align_val_t) noexcept { take_back(block); }
-void operator delete(void* block, std::size_t, std::align_val_t) noexcept { take_back(block); }
-void operator delete[](void* block, std::size_t, std::align_val_t) noexcept { take_back(block); }
-void operator delete(void* block, const std::nothrow_t&) noexcept { take_back(block); }
-void operator delete[](void* block, const std::nothrow_t&) noexcept { take_back(block); }
-void operator delete(void* block, std::align_val_t, const std::nothrow_t&) noexcept { take_back(block); }
-void operator delete[](void* block, std::align_val_t, const std::nothrow_t&) noexcept { take_back(block); }
+void operator delete(void* block) noexcept
+{
+    take_back(block);
+}
+void operator delete[](void* block) noexcept
+{
+    take_back(block);
+}
+void operator delete(void* block, std::size_t) noexcept
+{
+    take_back(block);
+}
+void operator delete[](void* block, std::size_t) noexcept
+{
+    take_back(block);
+}
+void operator delete(void* block, std::align_val_t) noexcept
+{
+    take_back(block);
+}
+void operator delete[](void* block, std::align_val_t) noexcept
+{
+    take_back(block);
+}
+void operator delete(void* block, std::size_t, std::align_val_t) noexcept
+{
+    take_back(block);
+}
+void operator delete[](void* block, std::size_t, std::align_val_t) noexcept
+{
+    take_back(block);
+}
+void operator delete(void* block, const std::nothrow_t&) noexcept
+{
+    take_back(block);
+}
+void operator delete[](void* block, const std::nothrow_t&) noexcept
+{
+    take_back(block);
+}
+void operator delete(void* block, std::align_val_t, const std::nothrow_t&) noexcept
+{
+    take_back(block);
+}
+void operator delete[](void* block, std::align_val_t, const std::nothrow_t&) noexcept
+{
+    take_back(block);
+}
 
 #endif

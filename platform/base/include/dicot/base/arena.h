@@ -34,7 +34,7 @@ public:
             peak_ = used_;
         if (used_ > block_.size())
             return {};
-        return {reinterpret_cast<T*>(block_.data() + start), count};
+        return {static_cast<T*>(static_cast<void*>(block_.data() + start)), count};
     }
 
     bool measuring() const noexcept { return block_.data() == nullptr; }

@@ -24,6 +24,7 @@ struct RigGeometry
 };
 
 /// One point, in steps of the cloud's grid, in the frame of the rectified left camera: x right, y down, z forward.
+/// Steps count from the camera, not from the grid's origin: metres = x * step.
 struct CloudPoint
 {
     std::int32_t x, y, z;
@@ -32,7 +33,7 @@ struct CloudPoint
 };
 static_assert(sizeof(CloudPoint) == 16);
 
-/// The fixed grid that positions lie on: metres = (origin + index) * step. Chosen from the working range, never from
+/// The fixed grid that positions lie on: coordinate = origin + index steps, 0 <= index < 2^bits. Chosen from the working range, never from
 /// the points, so that every snapshot of a rig has the same one.
 struct CloudGrid
 {

@@ -67,7 +67,7 @@ public:
     {
         ::new (static_cast<void*>(&value_)) T(std::move(value));
     }
-    Result(Status why) noexcept : status_(std::move(why)) // NOLINT(google-explicit-constructor)
+    Result(const Status& why) noexcept : status_(why) // NOLINT(google-explicit-constructor)
     {
         if (status_.ok())
             status_ = failure(Fault::kSoftware, "a Result was made from a Status that is ok");

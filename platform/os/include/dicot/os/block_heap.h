@@ -23,8 +23,8 @@ public:
 
     /// At least `bytes` bytes aligned to `alignment` (a power of two), or null when no hole is large enough.
     void* allocate(std::size_t bytes, std::size_t alignment = kAlignment) noexcept;
-    /// Takes back what allocate() of this heap gave. Anything else, also a block that came back already, changes nothing:
-    /// each block in use carries a stamp of its heap and place.
+    /// Takes back what allocate() of this heap gave. Anything else, also a block that came back already, changes
+    /// nothing: each block in use carries a stamp of its heap and place.
     void release(void* block) noexcept;
 
     std::size_t used_bytes() const noexcept { return used_bytes_; } ///< now, headers included

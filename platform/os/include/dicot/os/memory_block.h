@@ -8,7 +8,8 @@
 
 namespace dicot {
 
-enum class Pages {
+enum class Pages
+{
     kOnTouch,  ///< a page becomes resident when it is first written
     kResident, ///< every page is resident before map() returns: running out is found out now
 };

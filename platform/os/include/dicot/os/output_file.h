@@ -17,7 +17,7 @@ namespace dicot {
 class OutputFile
 {
 public:
-    static constexpr std::size_t kBufferBytes = 16 * 1024;
+    static constexpr std::size_t kBufferBytes = std::size_t{16} * 1024;
 
     OutputFile() noexcept = default;
     OutputFile(const OutputFile&) = delete;
@@ -26,7 +26,8 @@ public:
 
     /// Opens the part file. Fault::kCannotCreate: no such folder, no permission, the target is a folder or a disk.
     Status open(const char* path) noexcept;
-    /// Fault::kIoError: the disk is full, or the device failed. After a failure only the destructor remains to be called.
+    /// Fault::kIoError: the disk is full, or the device failed. After a failure only the destructor remains to be
+    /// called.
     Status write(std::span<const std::byte> bytes) noexcept;
     Status write(const void* bytes, std::size_t count) noexcept;
     /// Makes the file appear, durable. Fault::kIoError as for write().

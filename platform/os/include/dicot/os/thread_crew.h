@@ -21,7 +21,7 @@ class ThreadCrew final : public Crew
 {
 public:
     static constexpr int kMaxThreads = 64;
-    static constexpr std::size_t kStackBytes = 256 * 1024;
+    static constexpr std::size_t kStackBytes = std::size_t{256} * 1024;
 
     /// A crew of `threads`, clamped to 1 .. kMaxThreads.
     explicit ThreadCrew(int threads) noexcept;

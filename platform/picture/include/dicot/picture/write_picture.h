@@ -22,6 +22,7 @@ Status write_jpeg(const char* path, ImageView<const Rgb8> picture, int quality) 
 class RowSource
 {
 public:
+    // clang-format off
     template <typename F>
         requires(!std::is_same_v<std::remove_cvref_t<F>, RowSource>)
     RowSource(F&& fill) noexcept // NOLINT(google-explicit-constructor,bugprone-forwarding-reference-overload)
@@ -31,6 +32,7 @@ public:
           })
     {
     }
+    // clang-format on
     void operator()(int y, std::span<float> row) const { call_(object_, y, row); }
 
 private:

@@ -15,7 +15,8 @@ namespace dicot::heap_gate {
 /// state, and a LentHeap serves nothing.
 bool replaces_operator_new() noexcept;
 
-enum class Breach {
+enum class Breach
+{
     kStop,  ///< an allocation outside of every lease ends the program
     kCount, ///< it is served by malloc and counted: for tests
 };

@@ -1,0 +1,194 @@
+#include "dicot/kernels/kernels.h"
+
+#include <immintrin.h>
+
+// Everything here has internal linkage: see the note on vector files in kernels.h.
+namespace dicot {
+namespace {
+
+using Vec = __m256i;
+
+#define DICOT_LOAD(pointer) _mm256_loadu_si256(reinterpret_cast<const __m256i*>(pointer))
+#define DICOT_STORE(pointer, value) _mm256_storeu_si256(reinterpret_cast<__m256i*>(pointer), value)
+
+int scalar_index(int squared_distance)
+{
+    const __m128i bits = _mm_castps_si128(_mm_cvtepi32_ps(_mm_cvtsi32_si128(squared_distance)));
+    const int index = _mm_cvtsi128_si32(_mm_srli_epi32(bits, 17)) - (127 * kColourSteps - 1);
+    return index < 0 ? 0 : index;
+}
+
+std::uint16_t scalar_weight(LabRow p, LabRow q, int i, const std::uint16_t* colour, std::uint16_t spatial)
+{
+    const int l = p.la[i].low - q.la[i].low;
+    const int a = p.la[i].high - q.la[i].high;
+    const int b = p.b[i].low - q.b[i].low;
+    const unsigned weight = colour[scalar_index(l * l + a * a + b * b)];
+    return static_cast<std::uint16_t>((weight * spatial + (1u << 14)) >> 15);
+}
+
+// Colour weights of 8 pixels, one in each 32-bit lane. The table is read 32 bits at a time and masked.
+Vec colour_weights(Vec p_la, Vec p_b, LabRow q, int i, const std::uint16_t* colour)
+{
+    const Vec la = _mm256_sub_epi16(p_la, DICOT_LOAD(q.la + i));
+    const Vec b = _mm256_sub_epi16(p_b, DICOT_LOAD(q.b + i));
+    const Vec squared = _mm256_add_epi32(_mm256_madd_epi16(la, la), _mm256_madd_epi16(b, b));
+    const Vec bits = _mm256_castps_si256(_mm256_cvtepi32_ps(squared));
+    const Vec index = _mm256_sub_epi32(_mm256_srli_epi32(bits, 17), _mm256_set1_epi32(127 * kColourSteps - 1));
+    const Vec safe = _mm256_max_epi32(index, _mm256_setzero_si256());
+    return _mm256_i32gather_epi32(reinterpret_cast<const int*>(colour), safe, 2);
+}
+
+void support_weights(PairU16* out, int n, LabRow p, LabRow q_low, LabRow q_high, const std::uint16_t* colour,
+                     PairU16 spatial)
+{
+    const Vec space = _mm256_set1_epi32(spatial.low | (spatial.high << 16));
+    int i = 0;
+    for (; i + 8 <= n; i += 8) {
+        const Vec la = DICOT_LOAD(p.la + i);
+        const Vec b = DICOT_LOAD(p.b + i);
+        const Vec low = colour_weights(la, b, q_low, i, colour);
+        const Vec high = colour_weights(la, b, q_high, i, colour);
+        const Vec pair = _mm256_blend_epi16(low, _mm256_slli_epi32(high, 16), 0xAA);
+        DICOT_STORE(out + i, _mm256_mulhrs_epi16(pair, space));
+    }
+    for (; i < n; ++i) {
+        out[i].low = scalar_weight(p, q_low, i, colour, spatial.low);
+        out[i].high = scalar_weight(p, q_high, i, colour, spatial.high);
+    }
+}
+
+// |left - right| of 8 pixels in 16-bit lanes.
+__m128i distance8(__m128i left, const std::uint8_t* right)
+{
+    const __m128i wide = _mm_cvtepu8_epi16(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(right)));
+    return _mm_abs_epi16(_mm_sub_epi16(left, wide));
+}
+
+void match_cost(std::uint16_t* out, int n, int disparities, CostRow left, CostRow right, const CostTables& tables)
+{
+    const __m128i nibble_count = _mm_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4);
+    const __m128i nibble = _mm_set1_epi8(15);
+    const __m128i census_cost = _mm_loadu_si128(reinterpret_cast<const __m128i*>(tables.census));
+    const Vec byte_mask = _mm256_set1_epi32(0xFF);
+    const int* difference_cost = reinterpret_cast<const int*>(tables.difference);
+    for (int i = 0; i < n; ++i) {
+        const __m128i red = _mm_set1_epi16(left.red[i]);
+        const __m128i green = _mm_set1_epi16(left.green[i]);
+        const __m128i blue = _mm_set1_epi16(left.blue[i]);
+        const __m128i census = _mm_set1_epi8(static_cast<char>(left.census[i]));
+        for (int r = 0; r < disparities; r += 8) {
+            const int j = i + r;
+            const __m128i difference = _mm_add_epi16(
+                _mm_add_epi16(distance8(red, right.red + j), distance8(green, right.green + j)),
+                distance8(blue, right.blue + j));
+            const __m128i bits =
+                _mm_xor_si128(census, _mm_loadl_epi64(reinterpret_cast<const __m128i*>(right.census + j)));
+            const __m128i hamming =
+                _mm_add_epi8(_mm_shuffle_epi8(nibble_count, _mm_and_si128(bits, nibble)),
+                             _mm_shuffle_epi8(nibble_count, _mm_and_si128(_mm_srli_epi16(bits, 4), nibble)));
+            const Vec by_census = _mm256_cvtepu8_epi32(_mm_shuffle_epi8(census_cost, hamming));
+            const Vec by_difference = _mm256_and_si256(
+                _mm256_i32gather_epi32(difference_cost, _mm256_cvtepu16_epi32(difference), 1), byte_mask);
+            const Vec cost = _mm256_add_epi32(by_census, by_difference);
+            // The 16-bit half beside each result belongs to the other row of the group and is kept.
+            std::uint16_t* to = out + (i * disparities + r) * 2;
+            alignas(32) std::uint32_t lanes[8];
+            _mm256_store_si256(reinterpret_cast<__m256i*>(lanes), cost);
+            for (int k = 0; k < 8; ++k)
+                to[2 * k] = static_cast<std::uint16_t>(lanes[k]);
+        }
+    }
+}
+
+// `kVectors` * 8 disparities of one pixel over all columns.
+// Two columns' weights are added in 16 bits before they are widened: 2 * kRightWeightOne < 2^15.
+template <unsigned kVectors>
+void aggregate_pixel(const AggregateStrip& s, int i, int r)
+{
+    const Vec ones = _mm256_set1_epi16(1);
+    Vec numerator[kVectors];
+    Vec denominator[kVectors];
+    for (unsigned v = 0; v < kVectors; ++v)
+        numerator[v] = denominator[v] = _mm256_setzero_si256();
+
+    const PairU16* left = s.left_weights + i;
+    const PairU16* right = s.right_weights + i + r;
+    const PairU16* cost = s.costs + i * s.disparities + r;
+    int c = 0;
+    for (; c + 2 <= s.columns; c += 2) {
+        const Vec left0 = _mm256_set1_epi32(left[0].low | (left[0].high << 16));
+        const Vec left1 = _mm256_set1_epi32(left[s.left_stride].low | (left[s.left_stride].high << 16));
+        for (unsigned v = 0; v < kVectors; ++v) {
+            const Vec w0 = _mm256_mulhrs_epi16(left0, DICOT_LOAD(right + 8 * v));
+            const Vec w1 = _mm256_mulhrs_epi16(left1, DICOT_LOAD(right + s.right_stride + 8 * v));
+            numerator[v] = _mm256_add_epi32(numerator[v], _mm256_madd_epi16(w0, DICOT_LOAD(cost + 8 * v)));
+            numerator[v] =
+                _mm256_add_epi32(numerator[v], _mm256_madd_epi16(w1, DICOT_LOAD(cost + s.disparities + 8 * v)));
+            denominator[v] = _mm256_add_epi32(denominator[v], _mm256_madd_epi16(_mm256_add_epi16(w0, w1), ones));
+            // One vector after the other: interleaved by the compiler, they need more registers than there are.
+            asm volatile("" : "+x"(numerator[v]), "+x"(denominator[v]));
+        }
+        left += 2 * s.left_stride;
+        right += 2 * s.right_stride;
+        cost += 2 * s.disparities;
+    }
+    if (c < s.columns) {
+        const Vec left0 = _mm256_set1_epi32(left[0].low | (left[0].high << 16));
+        for (unsigned v = 0; v < kVectors; ++v) {
+            const Vec w0 = _mm256_mulhrs_epi16(left0, DICOT_LOAD(right + 8 * v));
+            numerator[v] = _mm256_add_epi32(numerator[v], _mm256_madd_epi16(w0, DICOT_LOAD(cost + 8 * v)));
+            denominator[v] = _mm256_add_epi32(denominator[v], _mm256_madd_epi16(w0, ones));
+        }
+    }
+    std::uint32_t* to_numerator = s.numerator + i * s.disparities + r;
+    std::uint32_t* to_denominator = s.denominator + i * s.disparities + r;
+    for (unsigned v = 0; v < kVectors; ++v) {
+        DICOT_STORE(to_numerator + 8 * v, _mm256_add_epi32(DICOT_LOAD(to_numerator + 8 * v), numerator[v]));
+        DICOT_STORE(to_denominator + 8 * v, _mm256_add_epi32(DICOT_LOAD(to_denominator + 8 * v), denominator[v]));
+    }
+}
+
+void aggregate(const AggregateStrip& s)
+{
+    for (int i = 0; i < s.pixels; ++i) {
+        int r = 0;
+        for (; r + 32 <= s.disparities; r += 32)
+            aggregate_pixel<4>(s, i, r);
+        for (; r + 16 <= s.disparities; r += 16)
+            aggregate_pixel<2>(s, i, r);
+        for (; r < s.disparities; r += 8)
+            aggregate_pixel<1>(s, i, r);
+    }
+}
+
+// Exact: the quotient of two integers below 2^40 and 2^31 is either whole or at least 2^-31 away from a whole number,
+// and the rounding of a double of this size is below 2^-36.
+void normalise(std::uint16_t* out, const std::uint32_t* numerator, const std::uint32_t* denominator, int n)
+{
+    const __m256d scale = _mm256_set1_pd(256.0);
+    const __m256d two32 = _mm256_set1_pd(4294967296.0);
+    int i = 0;
+    for (; i + 4 <= n; i += 4) {
+        const __m128i num = _mm_loadu_si128(reinterpret_cast<const __m128i*>(numerator + i));
+        const __m128i den = _mm_loadu_si128(reinterpret_cast<const __m128i*>(denominator + i));
+        // The numerator has 32 bits and the conversion is signed: a negative one is 2^32 too small.
+        const __m256d raw = _mm256_cvtepi32_pd(num);
+        const __m256d whole = _mm256_blendv_pd(raw, _mm256_add_pd(raw, two32), raw);
+        const __m256d quotient = _mm256_div_pd(_mm256_mul_pd(whole, scale), _mm256_cvtepi32_pd(den));
+        const __m128i floored = _mm256_cvttpd_epi32(quotient);
+        _mm_storel_epi64(reinterpret_cast<__m128i*>(out + i), _mm_packus_epi32(floored, floored));
+    }
+    for (; i < n; ++i)
+        out[i] = static_cast<std::uint16_t>(std::uint64_t{numerator[i]} * 256 / denominator[i]);
+}
+
+#undef DICOT_LOAD
+#undef DICOT_STORE
+
+} // namespace
+
+extern const Kernels kAvx2Kernels;
+const Kernels kAvx2Kernels = {"avx2", support_weights, match_cost, aggregate, normalise};
+
+} // namespace dicot

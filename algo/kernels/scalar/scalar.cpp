@@ -1,0 +1,83 @@
+// The law: the shortest loops that a reader can hold against the paper and the contract in kernels.h.
+#include "dicot/kernels/kernels.h"
+
+#include <bit>
+#include <cstdlib>
+
+namespace dicot {
+namespace {
+
+int colour_index(int squared_distance)
+{
+    const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(squared_distance));
+    const int index = static_cast<int>(bits >> 17) - (127 * kColourSteps - 1);
+    return index < 0 ? 0 : index;
+}
+
+int squared_distance(LabRow p, LabRow q, int i)
+{
+    const int l = p.la[i].low - q.la[i].low;
+    const int a = p.la[i].high - q.la[i].high;
+    const int b = p.b[i].low - q.b[i].low;
+    return l * l + a * a + b * b;
+}
+
+std::uint32_t round_q15(std::uint32_t product) { return (product + (1u << 14)) >> 15; }
+
+void support_weights(PairU16* out, int n, LabRow p, LabRow q_low, LabRow q_high, const std::uint16_t* colour,
+                     PairU16 spatial)
+{
+    for (int i = 0; i < n; ++i) {
+        const std::uint32_t low = colour[colour_index(squared_distance(p, q_low, i))];
+        const std::uint32_t high = colour[colour_index(squared_distance(p, q_high, i))];
+        out[i].low = static_cast<std::uint16_t>(round_q15(low * spatial.low));
+        out[i].high = static_cast<std::uint16_t>(round_q15(high * spatial.high));
+    }
+}
+
+void match_cost(std::uint16_t* out, int n, int disparities, CostRow left, CostRow right, const CostTables& tables)
+{
+    for (int i = 0; i < n; ++i) {
+        for (int r = 0; r < disparities; ++r) {
+            const int j = i + r;
+            const int difference = std::abs(left.red[i] - right.red[j]) + std::abs(left.green[i] - right.green[j]) +
+                                   std::abs(left.blue[i] - right.blue[j]);
+            const int hamming = std::popcount(static_cast<std::uint8_t>(left.census[i] ^ right.census[j]));
+            out[(i * disparities + r) * 2] =
+                static_cast<std::uint16_t>(tables.difference[difference] + tables.census[hamming]);
+        }
+    }
+}
+
+void aggregate(const AggregateStrip& s)
+{
+    for (int i = 0; i < s.pixels; ++i) {
+        for (int r = 0; r < s.disparities; ++r) {
+            std::uint32_t numerator = 0;
+            std::uint32_t denominator = 0;
+            for (int c = 0; c < s.columns; ++c) {
+                const PairU16 left = s.left_weights[c * s.left_stride + i];
+                const PairU16 right = s.right_weights[c * s.right_stride + i + r];
+                const PairU16 cost = s.costs[(i + c) * s.disparities + r];
+                const std::uint32_t low = round_q15(std::uint32_t{left.low} * right.low);
+                const std::uint32_t high = round_q15(std::uint32_t{left.high} * right.high);
+                numerator += low * cost.low + high * cost.high;
+                denominator += low + high;
+            }
+            s.numerator[i * s.disparities + r] += numerator;
+            s.denominator[i * s.disparities + r] += denominator;
+        }
+    }
+}
+
+void normalise(std::uint16_t* out, const std::uint32_t* numerator, const std::uint32_t* denominator, int n)
+{
+    for (int i = 0; i < n; ++i)
+        out[i] = static_cast<std::uint16_t>(std::uint64_t{numerator[i]} * 256 / denominator[i]);
+}
+
+} // namespace
+
+const Kernels kScalarKernels = {"scalar", support_weights, match_cost, aggregate, normalise};
+
+} // namespace dicot

@@ -1,0 +1,71 @@
+// Aggregated costs (eq. 13), one row of the picture at a time, in memory that does not grow with the height.
+#pragma once
+
+#include "dicot/base/arena.h"
+#include "dicot/kernels/kernels.h"
+#include "dicot/matching/matcher.h"
+#include "planes.h"
+#include "tables.h"
+
+#include <span>
+
+namespace dicot::matching {
+
+/// Marks a disparity whose partner lies outside the right picture.
+inline constexpr std::uint16_t kNoCandidate = 0xFFFF;
+
+/// What all workers share while they match one pair.
+struct Scene
+{
+    const Kernels* kernels;
+    Planes left;
+    Planes right;
+    ColourWeights colour;
+    std::span<std::uint16_t> left_spatial;  ///< [window][window], Q15
+    std::span<std::uint16_t> right_spatial; ///< [window][window], Q14
+    CostTables costs;
+    int width;
+    int height;
+    int radius;           ///< of the window
+    int disparities;      ///< as asked for
+    int axis;             ///< disparities, padded to whole vectors
+    int min_disparity;
+};
+
+/// The aggregated costs of one row: [width][axis], index r = axis - 1 - d; kNoCandidate where there is no partner.
+using AggregatedRow = std::span<std::uint16_t>;
+
+/// One worker's tables: a ring of raw costs as high as the window, and the support weights of a strip of pixels.
+class CostRows
+{
+public:
+    void lay_out(Arena& arena, const Scene& scene);
+
+    /// The next calls of row() start a new band: any row may follow.
+    void restart() { next_cost_row_ = -1; }
+
+    /// Aggregated costs of row y; rows of a band are asked for from top to bottom without gaps.
+    AggregatedRow row(const Scene& scene, int y, MatchTimes& times, std::uint64_t (*now_ns)());
+
+private:
+    struct GroupRows;
+    void raw_costs(const Scene& scene, int y);
+    GroupRows rows_of_group(const Scene& scene, int y, int group) const;
+    void left_weights(const Scene& scene, int y, int x0, int count);
+    void right_weights(const Scene& scene, int y, int first, int count, int at);
+    void aggregate(const Scene& scene, int y, int x0, int count);
+    void divide(const Scene& scene, int x0, int count);
+
+    int groups_ = 0;
+    int columns_ = 0;
+    int right_stride_ = 0;
+    int cost_width_ = 0;
+    int next_cost_row_ = -1;
+    std::span<PairU16> costs_; ///< [groups][width + 2 radius][axis]
+    std::span<PairU16> left_;  ///< [groups][columns][kStrip]
+    std::span<PairU16> right_; ///< [groups][columns][right_stride]
+    std::span<std::uint32_t> numerator_, denominator_; ///< [kStrip][axis]
+    std::span<std::uint16_t> row_;                     ///< [width][axis]
+};
+
+} // namespace dicot::matching

@@ -1,0 +1,220 @@
+#include "dicot/matching/matcher.h"
+
+#include "cost_rows.h"
+#include "lab.h"
+#include "planes.h"
+#include "refine.h"
+#include "scanline.h"
+#include "select.h"
+#include "tables.h"
+
+#include <algorithm>
+#include <atomic>
+#include <new>
+
+namespace dicot {
+namespace matching {
+
+/// One worker's tables.
+struct Station
+{
+    CostRows costs;
+    ScanlinePass scanline;
+    Selector selector;
+    MatchTimes times;
+};
+
+/// Everything that a matcher owns, in its arena.
+struct Bench
+{
+    Scene scene;
+    LabTables lab;
+    Maps maps;
+    std::span<Station> stations;
+};
+
+namespace {
+
+template <typename Pixel>
+ImageView<Pixel> take_map(Arena& arena, int width, int height)
+{
+    const auto pixels = arena.take<Pixel>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    return {pixels.data(), width, height};
+}
+
+// Fills what it carves, so it must not be called on an arena that is too small.
+void lay_out(Bench& bench, Arena& arena, const MatchOptions& options, int workers)
+{
+    Scene& scene = bench.scene;
+    const int window = 2 * scene.radius + 1;
+    const auto cells = static_cast<std::size_t>(window * window);
+    scene.left_spatial = arena.take<std::uint16_t>(cells);
+    scene.right_spatial = arena.take<std::uint16_t>(cells);
+    scene.left.lay_out(arena, scene.width, scene.height, scene.radius, scene.radius);
+    scene.right.lay_out(arena, scene.width, scene.height, scene.radius + scene.axis - 1, scene.radius);
+    bench.maps.disparity = take_map<DispQ8>(arena, scene.width, scene.height);
+    bench.maps.confidence = take_map<std::uint8_t>(arena, scene.width, scene.height);
+    bench.maps.verdict = take_map<Verdict>(arena, scene.width, scene.height);
+    if (options.dense && options.method != MatchMethod::kPaper)
+        bench.maps.scratch = take_map<DispQ8>(arena, scene.width, scene.height);
+    for (int i = 0; i < workers; ++i) {
+        Station measured;
+        Station& station = arena.measuring() ? measured : bench.stations[static_cast<std::size_t>(i)];
+        station.costs.lay_out(arena, scene);
+        if (options.method != MatchMethod::kPaper)
+            station.scanline.lay_out(arena, scene);
+        station.selector.lay_out(arena, scene);
+    }
+}
+
+Scene scene_of(int width, int height, const MatchOptions& options, const Kernels& kernels)
+{
+    Scene scene{};
+    scene.kernels = &kernels;
+    scene.width = width;
+    scene.height = height;
+    scene.radius = options.window / 2;
+    scene.disparities = options.disparities;
+    scene.axis = (options.disparities + kLanes - 1) / kLanes * kLanes;
+    scene.min_disparity = options.min_disparity;
+    return scene;
+}
+
+} // namespace
+} // namespace matching
+
+Status Matcher::check(int width, int height, const MatchOptions& options)
+{
+    constexpr int kLeastSide = 8;
+    if (width < kLeastSide || height < kLeastSide)
+        return failure(Fault::kBadData, "the pictures are %d x %d px; the smallest that can be matched is %d x %d", width,
+                       height, kLeastSide, kLeastSide);
+    if (options.disparities < 1 || options.disparities > kMaxDisparities)
+        return failure(Fault::kUsage, "%d disparities: choose 1 to %d, or match smaller pictures", options.disparities,
+                       kMaxDisparities);
+    if (options.disparities > width)
+        return failure(Fault::kUsage, "%d disparities are wider than the pictures (%d px): choose at most %d",
+                       options.disparities, width, std::min(width, kMaxDisparities));
+    if (options.min_disparity <= -width || options.min_disparity >= width)
+        return failure(Fault::kUsage, "a least disparity of %d leaves nothing to match in pictures %d px wide",
+                       options.min_disparity, width);
+    if (options.window < 3 || options.window > kMaxWindow || options.window % 2 == 0)
+        return failure(Fault::kUsage, "a window of %d: choose an odd number from 3 to %d", options.window, kMaxWindow);
+    if (!(options.gamma_color >= 0.5 && options.gamma_color <= 100))
+        return failure(Fault::kUsage, "gamma-color %g: choose 0.5 to 100 (CIELAB units)", options.gamma_color);
+    if (!(options.gamma_space >= 0.5 && options.gamma_space <= 1000))
+        return failure(Fault::kUsage, "gamma-space %g: choose 0.5 to 1000 (px)", options.gamma_space);
+    return {};
+}
+
+Result<Matcher> Matcher::make(int width, int height, const MatchOptions& options, const Kernels& kernels, int workers,
+                              Arena& arena)
+{
+    using namespace matching;
+    TRY(check(width, height, options));
+    workers = std::clamp(workers, 1, height);
+
+    Matcher matcher;
+    matcher.options_ = options;
+
+    // First what it takes, then the real thing: nothing is written into an arena that is too small.
+    Arena measure;
+    Bench measured{};
+    measured.scene = scene_of(width, height, options, kernels);
+    (void)measure.take<Bench>(1);
+    (void)measure.take<Station>(static_cast<std::size_t>(workers));
+    lay_out(measured, measure, options, workers);
+    const std::span<std::byte> block = arena.take<std::byte>(measure.peak());
+    if (arena.measuring())
+        return matcher;
+    if (block.empty())
+        return failure(Fault::kConfig, "matching needs %zu KiB and the arena has %zu KiB left", measure.peak() >> 10,
+                       (arena.size() - std::min(arena.size(), arena.used() - measure.peak())) >> 10);
+
+    Arena own(block);
+    Bench* bench = ::new (own.take<Bench>(1).data()) Bench{};
+    bench->scene = measured.scene;
+    bench->stations = own.take<Station>(static_cast<std::size_t>(workers));
+    for (Station& station : bench->stations)
+        ::new (&station) Station{};
+    lay_out(*bench, own, options, workers);
+    fill(bench->lab);
+    bench->scene.colour.fill(options.gamma_color);
+    fill_spatial_weights(bench->scene.left_spatial.data(), bench->scene.right_spatial.data(), bench->scene.radius,
+                         options.gamma_space);
+    fill_costs(bench->scene.costs, options.cost);
+    matcher.bench_ = bench;
+    return matcher;
+}
+
+std::uint64_t Matcher::terms() const
+{
+    const matching::Scene& scene = bench_->scene;
+    const auto window = static_cast<std::uint64_t>(2 * scene.radius + 1);
+    return window * window * static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height) *
+           static_cast<std::uint64_t>(scene.disparities);
+}
+
+MatchOutcome Matcher::match(ImageView<const Rgb8> left, ImageView<const Rgb8> right, Crew& crew, const MatchHooks& hooks)
+{
+    using namespace matching;
+    Bench& bench = *bench_;
+    Scene& scene = bench.scene;
+    const int workers = static_cast<int>(bench.stations.size());
+    const int band_rows = options_.band_rows > 0 ? options_.band_rows : (scene.height + workers - 1) / workers;
+    const auto clock = [&] { return hooks.now_ns ? hooks.now_ns() : 0; };
+    const bool check_both_ways = options_.method != MatchMethod::kPaper;
+
+    const std::uint64_t start = clock();
+    crew.run(workers, [&](int worker) {
+        const int from = scene.height * worker / workers;
+        const int to = scene.height * (worker + 1) / workers;
+        scene.left.fill_rows(left, 0, bench.lab, from, to);
+        scene.right.fill_rows(right, scene.min_disparity, bench.lab, from, to);
+    });
+    const std::uint64_t prepared = clock();
+
+    std::atomic<int> rows_done{0};
+    crew.run(workers, [&](int worker) {
+        Station& station = bench.stations[static_cast<std::size_t>(worker)];
+        station.times = {};
+        for (int top = worker * band_rows; top < scene.height; top += workers * band_rows) {
+            station.costs.restart();
+            for (int y = top; y < std::min(top + band_rows, scene.height); ++y) {
+                const AggregatedRow costs = station.costs.row(scene, y, station.times, hooks.now_ns);
+                const std::uint64_t since = clock();
+                if (check_both_ways)
+                    station.scanline.smooth(scene, y, costs);
+                const auto width = static_cast<std::size_t>(scene.width);
+                SelectedRow row{{bench.maps.disparity.row(y), width},
+                                {bench.maps.confidence.row(y), width},
+                                {bench.maps.verdict.row(y), width}};
+                station.selector.select(scene, costs, check_both_ways, row);
+                station.times.select += clock() - since;
+                const int done = rows_done.fetch_add(1, std::memory_order_relaxed) + 1;
+                if (hooks.rows_done)
+                    hooks.rows_done(hooks.context, done, scene.height);
+            }
+        }
+    });
+
+    const std::uint64_t matched = clock();
+    if (options_.dense)
+        fill_gaps(bench.maps);
+    else
+        drop_unmatched(bench.maps);
+    if (options_.dense && check_both_ways)
+        smooth(bench.maps, scene.left, scene.colour, crew);
+
+    MatchOutcome outcome{};
+    outcome.map.relative = bench.maps.disparity;
+    outcome.map.confidence = bench.maps.confidence;
+    outcome.map.min_disparity = scene.min_disparity;
+    outcome.map.disparities = scene.disparities;
+    outcome.times = bench.stations[0].times;
+    outcome.times.prepare = prepared - start;
+    outcome.times.refine = clock() - matched;
+    return outcome;
+}
+
+} // namespace dicot

@@ -1,0 +1,76 @@
+// dicot memory: what a configuration will take, before it takes it.
+#include "commands.h"
+#include "match_bench.h"
+#include "match_words.h"
+
+#include "dicot/os/process_memory.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <memory>
+
+namespace dicot::app {
+namespace {
+
+/// Memory of the picture decoders, of threads' stacks and of the C library, beyond what the bare program holds.
+constexpr std::size_t kWorkingBytes = 1 << 20;
+
+struct Words
+{
+    MatchWords match;
+    int width = 640;
+    int height = 480;
+    bool json = false;
+};
+
+Status run(const Words& words)
+{
+    const int threads = words.match.resolved_threads();
+    const MatchBudget budget = TRY(match_budget(words.width, words.height, words.match.resolved(), threads));
+    const ProcessMemory bare = TRY(process_memory());
+    const std::size_t program = static_cast<std::size_t>(bare.resident_bytes) + kWorkingBytes;
+    const std::size_t total = program + budget.total();
+    if (words.json) {
+        const nlohmann::json report = {{"width", words.width},
+                                       {"height", words.height},
+                                       {"disparities", words.match.options.disparities},
+                                       {"threads", threads},
+                                       {"program_bytes", program},
+                                       {"pictures_bytes", budget.pictures},
+                                       {"matcher_bytes", budget.matcher},
+                                       {"output_bytes", budget.output},
+                                       {"total_bytes", total}};
+        std::printf("%s\n", report.dump(2).c_str());
+        return {};
+    }
+    const auto line = [](const char* what, std::size_t bytes) {
+        std::printf("%-36s %8.1f MiB\n", what, static_cast<double>(bytes) / (1 << 20));
+    };
+    std::printf("%d x %d px, %d disparities, %d threads\n", words.width, words.height,
+                words.match.options.disparities, threads);
+    line("program, libraries, stacks", program);
+    line("pictures", budget.pictures);
+    line("matcher: tables, planes, maps", budget.matcher);
+    line("output", budget.output);
+    line("peak of dicot match", total);
+    return {};
+}
+
+} // namespace
+
+void add_memory(CLI::App& program, Command& chosen)
+{
+    CLI::App* command = program.add_subcommand("memory", "Memory that a configuration takes");
+    auto words = std::make_shared<Words>();
+    command->add_option("--width", words->width, "picture width, px")->capture_default_str();
+    command->add_option("--height", words->height, "picture height, px")->capture_default_str();
+    command->add_option("--disparities", words->match.options.disparities, "width of the search range, px")
+        ->capture_default_str();
+    command->add_flag("--dense", words->match.options.dense, "as for match");
+    words->match.add_to(*command);
+    command->add_flag("--json", words->json, "report as JSON");
+    command->callback([words, &chosen] { chosen = [words] { return run(*words); }; });
+}
+
+} // namespace dicot::app
