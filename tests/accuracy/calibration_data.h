@@ -18,7 +18,6 @@ namespace dicot::test {
 using calibration::Board;
 using calibration::BoardSight;
 using calibration::CalibrationTask;
-using calibration::StereoRig;
 
 inline std::string data_path(const std::string& inner) { return std::string(DICOT_DATA_DIR) + "/" + inner; }
 
@@ -97,7 +96,7 @@ inline StereoRig rig_dev_truth()
 {
     const auto json = nlohmann::json::parse(std::ifstream(data_path("rig-dev/calibration/gt_calib.json")));
     const auto lens = [&](const char* k, const char* d) {
-        calibration::Lens l{json[k][0][0], json[k][1][1], json[k][0][2], json[k][1][2], {}};
+        Lens l{json[k][0][0], json[k][1][1], json[k][0][2], json[k][1][2], {}};
         for (std::size_t i = 0; i < 5; ++i)
             l.k[i] = json[d][i];
         return l;

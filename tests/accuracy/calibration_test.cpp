@@ -1,6 +1,7 @@
 #include "calibration_data.h"
 #include "rig_scene.h"
 
+#include "dicot/calibration/camera.h"
 #include "dicot/calibration/quality.h"
 #include "dicot/os/process_memory.h"
 

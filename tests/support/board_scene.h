@@ -1,7 +1,7 @@
 // A chessboard before a camera: where its corners fall, and what the camera sees. Written apart from the product.
 #pragma once
 
-#include "dicot/calibration/camera.h"
+#include "dicot/calibration/board.h"
 
 #include <algorithm>
 #include <array>
@@ -14,10 +14,6 @@
 namespace dicot::test {
 
 using calibration::Board;
-using calibration::Lens;
-using calibration::Point2;
-using calibration::Point3;
-using calibration::Turn;
 
 inline Turn times(const Turn& a, const Turn& b)
 {

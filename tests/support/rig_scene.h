@@ -8,7 +8,6 @@
 namespace dicot::test {
 
 using calibration::CalibrationTask;
-using calibration::StereoRig;
 using calibration::View;
 
 inline StereoRig webcam_rig()

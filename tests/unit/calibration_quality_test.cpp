@@ -1,3 +1,4 @@
+#include "dicot/calibration/camera.h"
 #include "dicot/calibration/quality.h"
 
 #include "rig_scene.h"

@@ -1,5 +1,6 @@
 #include "pinhole.h"
 
+#include "dicot/calibration/camera.h"
 #include "dicot/calibration/quality.h"
 
 #include <cmath>

@@ -2,6 +2,8 @@
 
 #include "bundle.h"
 
+#include "dicot/calibration/camera.h"
+
 #include <Eigen/LU>
 #include <Eigen/SVD>
 

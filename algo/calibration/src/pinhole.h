@@ -1,7 +1,7 @@
 // Projection with its derivatives.
 #pragma once
 
-#include "dicot/calibration/camera.h"
+#include "dicot/base/stereo_rig.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -4,6 +4,8 @@
 #include "held_out.h"
 #include "words.h"
 
+#include "dicot/calibration/camera.h"
+
 #include <algorithm>
 #include <cmath>
 

@@ -3,19 +3,13 @@
 
 #include "dicot/base/image.h"
 #include "dicot/base/status.h"
+#include "dicot/base/stereo_rig.h"
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace dicot::calibration {
-
-/// A position in a picture, in pixels; (0, 0) is the centre of the top-left pixel.
-struct Point2
-{
-    double x = 0;
-    double y = 0;
-};
 
 /// A plain chessboard, counted in inner corners (a board of 10 x 7 squares has 9 x 6).
 struct Board

@@ -1,8 +1,9 @@
 // From corners to the geometry of the rig.
 #pragma once
 
-#include "dicot/calibration/camera.h"
+#include "dicot/calibration/board.h"
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
