@@ -3,6 +3,8 @@
 
 #include "pinhole.h"
 
+#include "dicot/calibration/board.h"
+
 #include <span>
 #include <vector>
 
