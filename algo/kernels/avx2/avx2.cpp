@@ -191,24 +191,32 @@ struct Remap
     __m256i last_left; // side - 2: the second pixel of an interpolated pair is inside too
     __m128i stride;
     __m128i last_load; // of the 8 bytes that hold two pixels
-    const long long* rgb;
+    long long next_row;
+    const std::uint8_t* rgb;
 
     explicit Remap(const RemapSource& source)
         : ramp(_mm256_setr_epi32(0, 1, 2, 3, 0, 1, 2, 3)),
           last(_mm256_set_m128i(_mm_set1_epi32(128 * (source.height - 1)), _mm_set1_epi32(128 * (source.width - 1)))),
           last_left(_mm256_set_m128i(_mm_set1_epi32(source.height - 2), _mm_set1_epi32(source.width - 2))),
           stride(_mm_set1_epi32(source.stride_bytes)), last_load(_mm_set1_epi32(3 * source.width - 8)),
-          rgb(reinterpret_cast<const long long*>(source.rgb))
+          next_row(source.stride_bytes), rgb(source.rgb)
     {
+    }
+
+    static __m128i two_loads(const std::uint8_t* low, const std::uint8_t* high)
+    {
+        return _mm_unpacklo_epi64(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(low)),
+                                  _mm_loadl_epi64(reinterpret_cast<const __m128i*>(high)));
     }
 
     // 2 x 3 bytes of each of four pixels, red, green and blue beside their right neighbours' and less 128, times the
     // weights of the columns: maddubs takes one signed factor, and a weight may be 128.
-    Vec columns(__m128i row, __m128i load, Vec surplus_bits, Vec weights) const
+    static Vec columns(const std::uint8_t* const (&from)[4], long long row, Vec surplus_bits, Vec weights)
     {
         const Vec pairs = _mm256_setr_epi8(0, 3, 1, 4, 2, 5, -1, -1, 8, 11, 9, 12, 10, 13, -1, -1, 0, 3, 1, 4, 2, 5, -1, -1,
                                            8, 11, 9, 12, 10, 13, -1, -1);
-        const Vec bytes = _mm256_i32gather_epi64(rgb, _mm_add_epi32(row, load), 1);
+        // Four loads: a gather takes longer, several times so on cores with mended microcode.
+        const Vec bytes = _mm256_set_m128i(two_loads(from[2] + row, from[3] + row), two_loads(from[0] + row, from[1] + row));
         const Vec pixels = _mm256_shuffle_epi8(_mm256_srlv_epi64(bytes, surplus_bits), pairs);
         return _mm256_maddubs_epi16(weights, _mm256_xor_si256(pixels, _mm256_set1_epi8(-128)));
     }
@@ -244,8 +252,11 @@ struct Remap
         const __m128i b = _mm_or_si128(_mm256_extracti128_si256(one, 1), _mm_slli_epi32(_mm256_extracti128_si256(second, 1), 16));
         const Vec by_row = _mm256_cvtepu32_epi64(b);
 
-        const Vec above = columns(row, load, surplus, by_column);
-        const Vec below = columns(_mm_add_epi32(row, stride), load, surplus, by_column);
+        const __m128i offset = _mm_add_epi32(row, load);
+        const std::uint8_t* const from[4] = {rgb + _mm_extract_epi32(offset, 0), rgb + _mm_extract_epi32(offset, 1),
+                                             rgb + _mm_extract_epi32(offset, 2), rgb + _mm_extract_epi32(offset, 3)};
+        const Vec above = columns(from, 0, surplus, by_column);
+        const Vec below = columns(from, next_row, surplus, by_column);
         // The first and third pixel, and the second and fourth.
         const Vec even = _mm256_madd_epi16(_mm256_unpacklo_epi16(above, below), _mm256_shuffle_epi32(by_row, 0x00));
         const Vec odd = _mm256_madd_epi16(_mm256_unpackhi_epi16(above, below), _mm256_shuffle_epi32(by_row, 0xAA));
