@@ -47,17 +47,19 @@ Result<RigFile> read_whole(const std::string& path)
     return rig;
 }
 
-nlohmann::json as_json(const RigFile& rig, const RigGeometry& geometry)
+/// `geometry` is null where the file does not tell how the cameras stand.
+nlohmann::json as_json(const RigFile& rig, const RigGeometry* geometry)
 {
     nlohmann::json report = {{"id", rig.id},
                              {"width", rig.width},
                              {"height", rig.height},
-                             {"rectified_focal_px", geometry.focal_px},
-                             {"rectified_cx_px", geometry.cx_px},
-                             {"rectified_cy_px", geometry.cy_px},
-                             {"disparity_offset_px", geometry.disparity_offset_px},
-                             {"baseline_mm", geometry.baseline_mm},
-                             {"pictures", describes_cameras(rig) ? "as the cameras give them" : "rectified"}};
+                             {"pictures", describes_cameras(rig) ? "as the cameras give them" : geometry != nullptr ? "rectified" : "cameras not related"}};
+    if (geometry != nullptr)
+        report.update({{"rectified_focal_px", geometry->focal_px},
+                       {"rectified_cx_px", geometry->cx_px},
+                       {"rectified_cy_px", geometry->cy_px},
+                       {"disparity_offset_px", geometry->disparity_offset_px},
+                       {"baseline_mm", geometry->baseline_mm}});
     for (const auto& [key, camera] : {std::pair{"left", &rig.left}, std::pair{"right", &rig.right}}) {
         if (camera->intrinsic)
             report[key]["intrinsic_px"] = *camera->intrinsic;
@@ -79,13 +81,14 @@ nlohmann::json as_json(const RigFile& rig, const RigGeometry& geometry)
 Status show(const Words& words)
 {
     const RigFile rig = TRY(read_whole(words.rig));
-    const RigGeometry geometry = TRY(geometry_of(rig, words.rig.c_str()));
+    const bool stands = rig.left.projection || rig.right.projection;
+    const RigGeometry geometry = stands ? TRY(geometry_of(rig, words.rig.c_str())) : RigGeometry{};
     if (words.json) {
-        std::printf("%s\n", as_json(rig, geometry).dump(2).c_str());
+        std::printf("%s\n", as_json(rig, stands ? &geometry : nullptr).dump(2).c_str());
         return {};
     }
     std::printf("%s: id %s, pictures of %d x %d px, %s\n", words.rig.c_str(), rig.id[0] != '\0' ? rig.id : "(none)", rig.width,
-                rig.height, describes_cameras(rig) ? "as the cameras give them" : "rectified already");
+                rig.height, describes_cameras(rig) ? "as the cameras give them" : stands ? "rectified already" : "cameras not related to each other");
     for (const auto& [side, camera] : {std::pair{"left", &rig.left}, std::pair{"right", &rig.right}}) {
         if (!camera->intrinsic)
             continue;
@@ -97,6 +100,8 @@ Status show(const Words& words)
     }
     if (rig.translation_mm)
         std::printf("T %.4f %.4f %.4f mm\n", (*rig.translation_mm)[0], (*rig.translation_mm)[1], (*rig.translation_mm)[2]);
+    if (!stands)
+        return {};
     std::printf("rectified: focal length %.3f px, principal point %.3f, %.3f px, baseline %.4f mm\n", geometry.focal_px, geometry.cx_px,
                 geometry.cy_px, geometry.baseline_mm);
     return {};

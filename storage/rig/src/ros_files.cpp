@@ -166,6 +166,9 @@ Result<RigFile> read_ros_files(const std::string& folder)
         const Matrix<3, 1> shift = back_turned(*right.camera.rectifying,
                                                Matrix<3, 1>{{{(*right.camera.projection)[0][3] / focal}, {0}, {0}}});
         rig.translation_mm = {shift[0][0], shift[1][0], shift[2][0]};
+        if (!(shift[0][0] < 0))
+            return failure(Fault::kBadData, "%s: P[0,3] of right.yaml must be negative: left.yaml and right.yaml are swapped, or of one "
+                           "camera alone", shown_path(folder.c_str()));
         rig.left = left.camera;
         rig.right = right.camera;
         return rig;
