@@ -21,6 +21,8 @@ int main(int argc, char** argv)
     app::add_bench(program, chosen);
     app::add_match(program, chosen);
     app::add_process(program, chosen);
+    app::add_rectify(program, chosen);
+    app::add_rig(program, chosen);
     app::add_export(program, chosen);
     app::add_info(program, chosen);
     app::add_evaluate(program, chosen);

@@ -92,6 +92,24 @@ struct AggregateStrip
     int disparities;               ///< a multiple of kLanes
 };
 
+/// Where one cell of a row of a rectified picture comes from: pixel u of the cell from (x + u dx, y + u dy), in px of the
+/// source picture with kRemapFraction fraction bits.
+struct RemapSpan
+{
+    std::int32_t x, y, dx, dy;
+};
+inline constexpr int kRemapFraction = 16;
+/// The fraction bits that interpolation uses.
+inline constexpr int kRemapWeightBits = 7;
+
+/// A colour picture: 3 bytes a pixel, at least 3 x 2 px, (height - 1) * stride_bytes + 3 * width < 2^31.
+struct RemapSource
+{
+    const std::uint8_t* rgb;
+    std::int32_t stride_bytes;
+    std::int32_t width, height;
+};
+
 /// The table of function pointers. Pointers may be unaligned to more than their type unless said otherwise; input and
 /// output of one call never overlap; nothing outside the stated ranges is read or written.
 struct Kernels
@@ -124,6 +142,14 @@ struct Kernels
     /// Eq. 13's division: out[i] = floor(numerator[i] * 256 / denominator[i]). Domain: 0 < denominator[i] < 2^31,
     /// numerator[i] <= kCostMax * denominator[i], so out[i] <= 256 * kCostMax.
     void (*normalise)(std::uint16_t* out, const std::uint32_t* numerator, const std::uint32_t* denominator, int n);
+
+    /// One row of a rectified colour picture: `n` pixels, 3 bytes each, in cells of 2^cell_log2 px (cell_log2 is 2 or 3).
+    /// With (x, y) as RemapSpan says (|x|, |y| < 2^31 - 2^8 for every pixel of a cell that is begun),
+    ///   X = (x + 2^8) >> 9, Y alike: px with kRemapWeightBits fraction bits
+    /// and a = X mod 128, b = Y mod 128, each channel is
+    ///   ((128 - b) ((128 - a) p[0][0] + a p[0][1]) + b ((128 - a) p[1][0] + a p[1][1]) + 2^13) >> 14
+    /// of the four source pixels around; it is 0 where X or Y is below 0 or above 128 (side - 1).
+    void (*remap_row)(std::uint8_t* rgb, int n, const RemapSpan* spans, int cell_log2, const RemapSource& source);
 };
 static_assert(256 * kCostMax < 0xFFFF, "0xFFFF is free to mean: no candidate");
 
