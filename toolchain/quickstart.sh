@@ -2,11 +2,12 @@
 # From a bare Debian 12 to a 3D cloud of a real plant: sh toolchain/quickstart.sh
 set -eu
 
-root=$(cd "$(dirname "$0")/.." && pwd)
-build=$root/.build/quickstart
-out=$root/.build/quickstart-out
-cache=$root/.cache
-. "$root/toolchain/packages.sh"
+cd "$(dirname "$0")/.."
+build=.build/quickstart
+out=.build/quickstart-out
+cache=.cache
+log=.build/quickstart.log
+. toolchain/packages.sh
 
 step() { printf '\n[%s/6] %s\n' "$1" "$2"; }
 
@@ -17,10 +18,28 @@ fail() {
 
 # Runs a command quietly; shows the end of what it said if it fails.
 quietly() {
-    log=$root/.build/quickstart.log
     "$@" >"$log" 2>&1 && return 0
     tail -n 30 "$log" >&2
     fail "this failed: $* (all of it: $log)" 70
+}
+
+# The same, but what ninja says while it builds is one line of a terminal.
+compile() {
+    if [ -t 1 ]; then
+        cmake --build "$1" --target dicot || fail "dicot does not build; the reason is above" 70
+    else
+        quietly cmake --build "$1" --target dicot
+    fi
+}
+
+download() { (cd "$1" && apt-get -q download opencv-doc); }
+
+take_out() { # folder
+    data=./usr/share/doc/opencv-doc/examples/data
+    download "$1" || { [ "$(id -u)" = 0 ] && apt-get -q update && download "$1"; } || return
+    dpkg-deb --fsys-tarfile "$1"/opencv-doc_*.deb |
+        tar -x -C "$1" --strip-components=7 -f - $data/aloeL.jpg $data/aloeR.jpg $data/aloeGT.png || return
+    rm -f "$1"/opencv-doc_*.deb
 }
 
 # Three files out of Debian's opencv-doc, without installing it.
@@ -28,19 +47,12 @@ fetch_pair() {
     [ ! -f "$cache/aloe/aloeL.jpg" ] || [ ! -f "$cache/aloe/aloeR.jpg" ] || [ ! -f "$cache/aloe/aloeGT.png" ] || return 0
     folder=$(mktemp -d "$cache/aloe.XXXXXX")
     trap 'rm -rf "$folder"' EXIT
-    (
-        cd "$folder"
-        # As root, apt lets its own user download; the folder is open to it.
-        [ "$(id -u)" != 0 ] || chmod 777 .
-        apt-get -q download opencv-doc || { [ "$(id -u)" = 0 ] && apt-get -q update && apt-get -q download opencv-doc; }
-        dpkg-deb --fsys-tarfile opencv-doc_*.deb |
-            tar -x --strip-components=7 -f - ./usr/share/doc/opencv-doc/examples/data/aloeL.jpg \
-                ./usr/share/doc/opencv-doc/examples/data/aloeR.jpg ./usr/share/doc/opencv-doc/examples/data/aloeGT.png
-        rm -f opencv-doc_*.deb
-    ) >"$root/.build/quickstart.log" 2>&1 || {
-        tail -n 10 "$root/.build/quickstart.log" >&2
-        fail "cannot take the pictures out of Debian's package opencv-doc: check the network and 'apt-get update'" 69
-    }
+    # As root, apt lets its own user download; the folder is open to it.
+    [ "$(id -u)" != 0 ] || chmod 777 "$folder"
+    if ! take_out "$folder" >"$log" 2>&1; then
+        tail -n 10 "$log" >&2
+        fail "cannot take the pictures out of Debian's package opencv-doc: check the network, run 'apt-get update'" 69
+    fi
     for name in aloeL.jpg aloeR.jpg aloeGT.png; do
         [ -s "$folder/$name" ] || fail "Debian's package opencv-doc holds no $name" 69
     done
@@ -77,15 +89,15 @@ RIG
 }
 
 started=$(date +%s)
-mkdir -p "$root/.build" "$cache" "$out"
+mkdir -p .build "$cache" "$out"
 
 step 1 "Packages: the compiler, the libraries, djpeg"
 dicot_install build quickstart || exit
 packaged=$(date +%s)
 
-step 2 "Building dicot with $(nproc) processors"
-quietly cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DDICOT_TESTS=OFF
-quietly cmake --build "$build" --target dicot
+step 2 "Building dicot on $(nproc) processors: about a minute on two"
+quietly cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DDICOT_TESTS=OFF
+compile "$build"
 dicot=$build/platform/app/dicot
 "$dicot" --version
 
@@ -106,19 +118,19 @@ step 5 "Against the ground truth: dicot match --dense, dicot evaluate"
 "$dicot" match "$out/left.ppm" "$out/right.ppm" -o "$out/dense.pfm" --dense --disparities 118
 "$dicot" evaluate "$out/dense.pfm" "$cache/aloe/aloeGT.png"
 
-step 6 "Done in $(($(date +%s) - packaged)) s, after $((packaged - started)) s for packages. In $out:"
+step 6 "Done in $(($(date +%s) - packaged)) s (and $((packaged - started)) s for packages). In $PWD/$out:"
 cat <<WHERE
-  cloud.drc      the cloud, Draco-compressed ($(wc -c <"$out/cloud.drc") bytes; as PLY $(wc -c <"$out/cloud.ply"))
+  cloud.drc      the cloud, Draco-compressed: $(wc -c <"$out/cloud.drc") bytes; as PLY $(wc -c <"$out/cloud.ply")
   cloud.ply      the same for CloudCompare, MeshLab, Blender: open or import it there
   preview.png    the cloud from two viewpoints
   disparity.png  distances in colour: red is near, blue far, black has no match
   dense.pfm      every pixel's disparity, as the benchmarks want it
-  rig.yaml       the cameras' geometry: write one like it for your own rectified pair
+  rig.yaml       the cameras' geometry: write one like it for a rectified pair of your own
 
-Next:
-  $dicot export $out/cloud.drc -o cloud.pcd      for PCL and Open3D
-  $dicot info $out/cloud.drc                     what the file says about itself
-  $dicot process LEFT RIGHT --rig RIG.yaml -o CLOUD.drc      your own pair
+Next, in $PWD:
+  $dicot info $out/cloud.drc
+  $dicot export $out/cloud.drc -o cloud.pcd
+  $dicot process LEFT RIGHT --rig RIG.yaml -o CLOUD.drc
   $dicot --help
-  sh $root/toolchain/test.sh                      all tests
+  sh toolchain/test.sh
 WHERE

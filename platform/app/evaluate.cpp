@@ -19,7 +19,7 @@ namespace {
 constexpr double kOurPngScale = 256; // of the 16-bit PNG that match writes
 
 constexpr const char* kAbout =
-    "Error rates of a disparity map against ground truth. A pixel is judged when its truth is known and the mask counts "
+    "A pixel is judged when its truth is known and the mask counts "
     "it. bad-N is the share of judged pixels that are off by more than N px; a pixel without a disparity counts as bad, "
     "and is left out of the mean and RMS errors; density is the share that has one. A truth that is k times as large as "
     "the map is taken at the centres of the map's pixels and divided by k.";
@@ -128,7 +128,8 @@ Status run(const Words& words)
 
 void add_evaluate(CLI::App& program, Command& chosen)
 {
-    CLI::App* command = program.add_subcommand("evaluate", kAbout);
+    CLI::App* command = program.add_subcommand("evaluate", "Error rates of a disparity map against ground truth");
+    command->footer(kAbout);
     auto words = std::make_shared<Words>();
     command->add_option("DISPARITY", words->map, "disparity map: .pfm, or 16-bit .png (px x 256, 0 = missing)")->required();
     command->add_option("TRUTH", words->truth, "ground truth: grey PNG of 8 or 16 bits (0 = unknown), or PFM")->required();
