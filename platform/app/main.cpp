@@ -4,8 +4,9 @@
 
 namespace {
 
-constexpr const char* kFooter = "Exit codes follow sysexits(3): 0 done, 64 usage, 65 bad data, 66 no input, 69 unavailable, "
-                                "70 fault of dicot, 71 system refused,\n73 cannot create, 74 I/O error, 75 try again, 78 configuration.";
+constexpr const char* kFooter =
+    "Exit codes follow sysexits(3): 0 done, 64 usage, 65 bad data, 66 no input, 69 unavailable, "
+    "70 fault of dicot, 71 system refused,\n73 cannot create, 74 I/O error, 75 try again, 78 configuration.";
 
 } // namespace
 

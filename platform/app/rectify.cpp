@@ -33,14 +33,17 @@ Status check_size(const std::string& picture, const std::string& rig_path, const
 {
     const PictureSize size = TRY(picture_size(picture.c_str()));
     if (size.width != rig.width || size.height != rig.height)
-        return failure(Fault::kBadData, "%s is %d x %d px, and %s is for %d x %d: use the rig file of these cameras and this size",
+        return failure(Fault::kBadData,
+                       "%s is %d x %d px, and %s is for %d x %d: use the rig file of these cameras and this size",
                        picture.c_str(), size.width, size.height, rig_path.c_str(), rig.width, rig.height);
     return {};
 }
 
 Status make_folder(const std::string& path)
 {
-    struct stat there{};
+    struct stat there
+    {
+    };
     if (::stat(path.c_str(), &there) == 0 && S_ISDIR(there.st_mode))
         return {};
     if (::mkdir(path.c_str(), 0777) != 0)
@@ -89,9 +92,10 @@ Status run(const Words& words)
         {
             ImageView<Rgb8> raw_left, raw_right, left, right, both;
             std::span<std::uint8_t> row;
-        } pictures{take_picture<Rgb8>(arena, width, height), take_picture<Rgb8>(arena, width, height),
-                   take_picture<Rgb8>(arena, width, height), take_picture<Rgb8>(arena, width, height),
-                   take_picture<Rgb8>(arena, 2 * width, height), arena.take<std::uint8_t>(static_cast<std::size_t>(width))};
+        } pictures{
+            take_picture<Rgb8>(arena, width, height),     take_picture<Rgb8>(arena, width, height),
+            take_picture<Rgb8>(arena, width, height),     take_picture<Rgb8>(arena, width, height),
+            take_picture<Rgb8>(arena, 2 * width, height), arena.take<std::uint8_t>(static_cast<std::size_t>(width))};
         return pictures;
     };
     Arena measure;
@@ -132,7 +136,8 @@ Status run(const Words& words)
                 (*rig.left.projection)[0][0], (*rig.left.projection)[0][2], (*rig.left.projection)[1][2],
                 -(*rig.right.projection)[0][3] / (*rig.right.projection)[0][0]);
     for (const auto& [side, table] : {std::pair{"left", &tables.left()}, std::pair{"right", &tables.right()}})
-        std::printf("%-5s table: cells of %d px, %.1f KiB, worst error %.5f px of %.5f allowed, %.2f %% of the pixels have a source\n",
+        std::printf("%-5s table: cells of %d px, %.1f KiB, worst error %.5f px of %.5f allowed, %.2f %% of the pixels "
+                    "have a source\n",
                     side, table->cell_px(), static_cast<double>(table->table_bytes()) / 1024, table->worst_error_px(),
                     RemapTable::kMostErrorPx, 100 * static_cast<double>(table->pixels_with_source()) / pixels);
     std::printf("both pictures rectified in %.2f ms (%s)\n", remap_ms, kernels->name);
@@ -148,7 +153,8 @@ void add_rectify(CLI::App& program, Command& chosen)
     command->add_option("LEFT", words->left, "left picture as the camera gave it: PNG, JPEG or PPM")->required();
     command->add_option("RIGHT", words->right, "right picture")->required();
     command->add_option("--rig", words->rig, "rig file of the two cameras (YAML)")->required();
-    command->add_option("-o,--output", words->folder, "folder for left.png, right.png, mask.png and their rig.yaml")->required();
+    command->add_option("-o,--output", words->folder, "folder for left.png, right.png, mask.png and their rig.yaml")
+        ->required();
     command->add_option("--keep", words->keep, "0 crops until no pixel lacks a source, 1 keeps every source pixel")
         ->check(CLI::Range(0.0, 1.0))
         ->capture_default_str();

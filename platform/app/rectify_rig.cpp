@@ -17,13 +17,16 @@ Result<CameraModel> camera_of(const RigCamera& camera, const char* path)
 {
     const Matrix<3, 3>& k = *camera.intrinsic;
     if (k[0][1] != 0 || k[1][0] != 0 || k[2] != std::array<double, 3>{0, 0, 1})
-        return failure(Fault::kBadData, "%s: K1 and K2 must have the form fx 0 cx, 0 fy cy, 0 0 1: calibrate without skew", path);
+        return failure(Fault::kBadData,
+                       "%s: K1 and K2 must have the form fx 0 cx, 0 fy cy, 0 0 1: calibrate without skew", path);
     CameraModel model{k[0][0], k[1][1], k[0][2], k[1][2], {}};
     if (camera.distortion) {
         std::copy_n(camera.distortion->at.begin(), model.distortion.size(), model.distortion.begin());
         if (camera.distortion->at[12] != 0 || camera.distortion->at[13] != 0)
-            return failure(Fault::kBadData, "%s: tilted sensors (the 13th and 14th number of D1 and D2) are not known here: calibrate "
-                           "without the tilted model", path);
+            return failure(Fault::kBadData,
+                           "%s: tilted sensors (the 13th and 14th number of D1 and D2) are not known here: calibrate "
+                           "without the tilted model",
+                           path);
     }
     return model;
 }
@@ -39,8 +42,10 @@ Result<StereoModel> stereo_model_of(const RigFile& rig, const char* name)
 {
     const char* path = shown_path(name);
     if (!describes_cameras(rig))
-        return failure(Fault::kBadData, "%s: K1, K2, R and T are needed to rectify, and one of them is missing: give the file that "
-                       "'dicot calibrate' wrote", path);
+        return failure(Fault::kBadData,
+                       "%s: K1, K2, R and T are needed to rectify, and one of them is missing: give the file that "
+                       "'dicot calibrate' wrote",
+                       path);
     StereoModel model;
     model.width = rig.width;
     model.height = rig.height;
@@ -59,7 +64,8 @@ void set_rectification(RigFile& rig, const Rectification& flat)
     rig.right.rectifying = rows_of(flat.right_rectifying);
     rig.left.projection = {{{f, 0, flat.cx_px, 0}, {0, f, flat.cy_px, 0}, {0, 0, 1, 0}}};
     rig.right.projection = {{{f, 0, flat.cx_px, -f * flat.baseline_mm}, {0, f, flat.cy_px, 0}, {0, 0, 1, 0}}};
-    rig.reprojection = {{{1, 0, 0, -flat.cx_px}, {0, 1, 0, -flat.cy_px}, {0, 0, 0, f}, {0, 0, 1 / flat.baseline_mm, 0}}};
+    rig.reprojection = {
+        {{1, 0, 0, -flat.cx_px}, {0, 1, 0, -flat.cy_px}, {0, 0, 0, f}, {0, 0, 1 / flat.baseline_mm, 0}}};
 }
 
 Result<RectifyTables> RectifyTables::make(RigFile& rig, double keep, const char* name)
@@ -75,10 +81,12 @@ Result<RectifyTables> RectifyTables::make(RigFile& rig, double keep, const char*
     (void)measure.take<RemapSpan>(most_spans);
     RectifyTables tables{TRY(MemoryBlock::map(measure.peak()))};
     Arena arena(tables.block_.bytes());
-    tables.left_ = TRY(RemapTable::build(LensMap(model.left, flat.left_rectifying, flat.focal_px, flat.cx_px, flat.cy_px),
-                                         rig.width, rig.height, arena, path));
-    tables.right_ = TRY(RemapTable::build(LensMap(model.right, flat.right_rectifying, flat.focal_px, flat.cx_px, flat.cy_px),
-                                          rig.width, rig.height, arena, path));
+    tables.left_ =
+        TRY(RemapTable::build(LensMap(model.left, flat.left_rectifying, flat.focal_px, flat.cx_px, flat.cy_px),
+                              rig.width, rig.height, arena, path));
+    tables.right_ =
+        TRY(RemapTable::build(LensMap(model.right, flat.right_rectifying, flat.focal_px, flat.cx_px, flat.cy_px),
+                              rig.width, rig.height, arena, path));
     tables.spans_ = arena.take<RemapSpan>(most_spans);
     if (arena.overrun())
         return failure(Fault::kSoftware, "%s: the memory for the rectification tables was measured too small", path);

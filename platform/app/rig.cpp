@@ -23,7 +23,9 @@ struct Words
 
 bool is_folder(const std::string& path)
 {
-    struct stat there{};
+    struct stat there
+    {
+    };
     return ::stat(path.c_str(), &there) == 0 && S_ISDIR(there.st_mode);
 }
 
@@ -53,7 +55,9 @@ nlohmann::json as_json(const RigFile& rig, const RigGeometry* geometry)
     nlohmann::json report = {{"id", rig.id},
                              {"width", rig.width},
                              {"height", rig.height},
-                             {"pictures", describes_cameras(rig) ? "as the cameras give them" : geometry != nullptr ? "rectified" : "cameras not related"}};
+                             {"pictures", describes_cameras(rig) ? "as the cameras give them"
+                                          : geometry != nullptr  ? "rectified"
+                                                                 : "cameras not related"}};
     if (geometry != nullptr)
         report.update({{"rectified_focal_px", geometry->focal_px},
                        {"rectified_cx_px", geometry->cx_px},
@@ -87,8 +91,11 @@ Status show(const Words& words)
         std::printf("%s\n", as_json(rig, stands ? &geometry : nullptr).dump(2).c_str());
         return {};
     }
-    std::printf("%s: id %s, pictures of %d x %d px, %s\n", words.rig.c_str(), rig.id[0] != '\0' ? rig.id : "(none)", rig.width,
-                rig.height, describes_cameras(rig) ? "as the cameras give them" : stands ? "rectified already" : "cameras not related to each other");
+    std::printf("%s: id %s, pictures of %d x %d px, %s\n", words.rig.c_str(), rig.id[0] != '\0' ? rig.id : "(none)",
+                rig.width, rig.height,
+                describes_cameras(rig) ? "as the cameras give them"
+                : stands               ? "rectified already"
+                                       : "cameras not related to each other");
     for (const auto& [side, camera] : {std::pair{"left", &rig.left}, std::pair{"right", &rig.right}}) {
         if (!camera->intrinsic)
             continue;
@@ -99,11 +106,12 @@ Status show(const Words& words)
         std::printf("\n");
     }
     if (rig.translation_mm)
-        std::printf("T %.4f %.4f %.4f mm\n", (*rig.translation_mm)[0], (*rig.translation_mm)[1], (*rig.translation_mm)[2]);
+        std::printf("T %.4f %.4f %.4f mm\n", (*rig.translation_mm)[0], (*rig.translation_mm)[1],
+                    (*rig.translation_mm)[2]);
     if (!stands)
         return {};
-    std::printf("rectified: focal length %.3f px, principal point %.3f, %.3f px, baseline %.4f mm\n", geometry.focal_px, geometry.cx_px,
-                geometry.cy_px, geometry.baseline_mm);
+    std::printf("rectified: focal length %.3f px, principal point %.3f, %.3f px, baseline %.4f mm\n", geometry.focal_px,
+                geometry.cx_px, geometry.cy_px, geometry.baseline_mm);
     return {};
 }
 

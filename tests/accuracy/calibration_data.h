@@ -19,7 +19,10 @@ using calibration::Board;
 using calibration::BoardSight;
 using calibration::CalibrationTask;
 
-inline std::string data_path(const std::string& inner) { return std::string(DICOT_DATA_DIR) + "/" + inner; }
+inline std::string data_path(const std::string& inner)
+{
+    return std::string(DICOT_DATA_DIR) + "/" + inner;
+}
 
 /// Says in one line what is not run when the data are absent.
 inline bool data_there(const std::string& inner)

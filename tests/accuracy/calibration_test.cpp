@@ -31,9 +31,10 @@ constexpr bool kInstrumented = false;
 
 void print(const char* name, const StereoCalibration& c, const Quality& q)
 {
-    std::printf("%s: %d pairs, RMS left %.3f right %.3f both %.3f px; T %.3f %.3f %.3f mm; epipolar RMS %.3f p95 %.3f px\n", name,
-                c.pairs_used, c.rms_left_px, c.rms_right_px, c.rms_px, c.rig.shift_mm.x, c.rig.shift_mm.y,
-                c.rig.shift_mm.z, q.epipolar_rms_px, q.epipolar_p95_px);
+    std::printf(
+        "%s: %d pairs, RMS left %.3f right %.3f both %.3f px; T %.3f %.3f %.3f mm; epipolar RMS %.3f p95 %.3f px\n",
+        name, c.pairs_used, c.rms_left_px, c.rms_right_px, c.rms_px, c.rig.shift_mm.x, c.rig.shift_mm.y,
+        c.rig.shift_mm.z, q.epipolar_rms_px, q.epipolar_p95_px);
     std::printf("  held out: shape %.3f mm, depth %.3f mm, size %.3f %%; depth by calibration", q.held_out_mm,
                 q.held_out_depth_mm, q.held_out_size_percent);
     for (const DepthError& d : q.depth)
@@ -164,7 +165,8 @@ TEST(RenderedRigParts, DepthIsOffByWhatIsPredicted)
             predicted += prediction * prediction;
         }
         const double ratio = std::sqrt(real / predicted);
-        std::printf("%4.0f mm: off by %.2f times the prediction over %zu calibrations\n", distance_mm, ratio, parts.size());
+        std::printf("%4.0f mm: off by %.2f times the prediction over %zu calibrations\n", distance_mm, ratio,
+                    parts.size());
         EXPECT_GT(ratio, 0.5);
         EXPECT_LT(ratio, 2.0);
     }

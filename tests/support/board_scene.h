@@ -91,13 +91,13 @@ struct Scene
     double white = 210;
     double black = 25;
     double background = 110;
-    double margin_mm = 20;      ///< white rim around the squares
+    double margin_mm = 20; ///< white rim around the squares
     double blur_px = 0.7;
-    double noise = 2;           ///< standard deviation in grey levels
-    double dark_part = 1;       ///< light in the left third of the picture, against the rest; the border is soft
-    double glare = 0;           ///< grey levels added in the middle of a soft spot
+    double noise = 2;     ///< standard deviation in grey levels
+    double dark_part = 1; ///< light in the left third of the picture, against the rest; the border is soft
+    double glare = 0;     ///< grey levels added in the middle of a soft spot
     Point2 glare_at{0, 0};
-    double glare_px = 60;       ///< radius of the spot
+    double glare_px = 60; ///< radius of the spot
     std::uint32_t seed = 1;
 };
 
@@ -145,7 +145,9 @@ inline double shade_of(const Scene& s, double x, double y)
 /// The picture: 5 x 5 rays a pixel, each somewhere in its part, light, blur, noise, 8 bits.
 inline Photo photograph(const Scene& s)
 {
-    const auto at = [&](int x, int y) { return static_cast<std::size_t>(y) * static_cast<std::size_t>(s.width) + static_cast<std::size_t>(x); };
+    const auto at = [&](int x, int y) {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(s.width) + static_cast<std::size_t>(x);
+    };
     std::mt19937 random(s.seed);
     const auto jitter = [](std::mt19937& r) { return static_cast<double>(r()) / 4294967296.0; };
     std::vector<double> light(at(0, s.height));

@@ -65,11 +65,13 @@ inline Placement any_place(const StereoRig& rig, std::mt19937& random)
 {
     const double z = between(480, 1200, random);
     return {turn_about(between(-38, 38, random), between(-38, 38, random), between(-15, 15, random)),
-            {between(-0.45, 0.52, random) * z * rig.width / rig.left.fx, between(-0.4, 0.4, random) * z * rig.height / rig.left.fy, z}};
+            {between(-0.45, 0.52, random) * z * rig.width / rig.left.fx,
+             between(-0.4, 0.4, random) * z * rig.height / rig.left.fy, z}};
 }
 
 /// `pairs` boards at many distances and tilts, whole in both pictures.
-inline CalibrationTask varied_task(const StereoRig& rig, const Board& board, int pairs, double noise_px, std::uint32_t seed)
+inline CalibrationTask varied_task(const StereoRig& rig, const Board& board, int pairs, double noise_px,
+                                   std::uint32_t seed)
 {
     std::mt19937 random(seed);
     CalibrationTask task;

@@ -18,7 +18,10 @@ using test::Bytes;
 using test::TempFolder;
 using test::ToolRun;
 
-ToolRun dicot(const std::string& words) { return test::run(std::string{DICOT_PROGRAM} + " " + words); }
+ToolRun dicot(const std::string& words)
+{
+    return test::run(std::string{DICOT_PROGRAM} + " " + words);
+}
 
 /// A plain grey picture.
 std::string picture(const TempFolder& folder, const std::string& name, int width, int height)

@@ -206,7 +206,8 @@ TEST(FindBoard, SaysThatCornersAreHidden)
     for (int y = 190; y < 290; ++y)
         for (int x = 270; x < 370; ++x)
             photo.pixels[static_cast<std::size_t>(y * photo.width + x)] = 140;
-    EXPECT_THAT(find_board(photo.view(), scene.board).reason, testing::ContainsRegex("of 54 corners found; the others are hidden"));
+    EXPECT_THAT(find_board(photo.view(), scene.board).reason,
+                testing::ContainsRegex("of 54 corners found; the others are hidden"));
 }
 
 TEST(FindBoard, SaysWhatIsWrongWithThePicture)

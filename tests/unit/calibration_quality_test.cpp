@@ -114,8 +114,10 @@ TEST(Assess, SaysWhatIsMissing)
     std::mt19937 random(31);
     CalibrationTask task = test::varied_task(rig, kBoard, 0, 0, 1);
     for (int k = 0; k < 6; ++k)
-        task.views.push_back(test::view_of(rig, {9, 7, 18}, 0, {turn_about(k % 2 == 0 ? 30 : -30, k < 3 ? 25 : -25, 4),
-                                                                 {-60.0 - 20 * k, -30.0 + 20 * k, 420.0 + 10 * k}}, 0.15, random));
+        task.views.push_back(test::view_of(
+            rig, {9, 7, 18}, 0,
+            {turn_about(k % 2 == 0 ? 30 : -30, k < 3 ? 25 : -25, 4), {-60.0 - 20 * k, -30.0 + 20 * k, 420.0 + 10 * k}},
+            0.15, random));
     task.boards[0].square_mm = 18;
     const auto solved = solve_stereo(task);
     ASSERT_TRUE(solved.ok()) << solved.status().message();

@@ -106,18 +106,19 @@ TEST(CornerTerm, DerivativesAgreeWithDifferences)
             };
             for (int k = 0; k < kShared; ++k) {
                 SCOPED_TRACE(testing::Message() << "shared number " << k << ", right " << right);
-                check(term.by_shared(0, k), term.by_shared(1, k), k < kRigPose || k >= kRigPose + 3 ? 1e-4 : 1e-6, [&](double by) {
-                    Bundle b = bundle;
-                    if (k < kRightLens)
-                        b.lens[0][k] += by;
-                    else if (k < kRigPose)
-                        b.lens[1][k - kRightLens] += by;
-                    else if (k < kWarp)
-                        b.rig = b.rig.moved(by * PoseVector::Unit(k - kRigPose));
-                    else
-                        b.warp[k - kWarp] += by;
-                    return corner_term(b, view, right, col, row, {600, 300}).residual;
-                });
+                check(term.by_shared(0, k), term.by_shared(1, k), k < kRigPose || k >= kRigPose + 3 ? 1e-4 : 1e-6,
+                      [&](double by) {
+                          Bundle b = bundle;
+                          if (k < kRightLens)
+                              b.lens[0][k] += by;
+                          else if (k < kRigPose)
+                              b.lens[1][k - kRightLens] += by;
+                          else if (k < kWarp)
+                              b.rig = b.rig.moved(by * PoseVector::Unit(k - kRigPose));
+                          else
+                              b.warp[k - kWarp] += by;
+                          return corner_term(b, view, right, col, row, {600, 300}).residual;
+                      });
             }
             for (int k = 0; k < 6; ++k) {
                 SCOPED_TRACE(testing::Message() << "pose number " << k << ", right " << right);
@@ -300,11 +301,13 @@ TEST(SolveStereo, RefusesViewsThatAreAllAlike)
     std::mt19937 random(2);
     CalibrationTask task = test::varied_task(rig, kBoard, 0, 0, 1);
     for (int k = 0; k < 12; ++k)
-        task.views.push_back(test::view_of(rig, kBoard, 0, {turn_about(12 + 0.2 * k, -8, 3), {5.0 * k, 10, 650}}, 0.05, random));
+        task.views.push_back(
+            test::view_of(rig, kBoard, 0, {turn_about(12 + 0.2 * k, -8, 3), {5.0 * k, 10, 650}}, 0.05, random));
     expect_refusal(task, "all views are alike");
     task.views.clear();
     for (int k = 0; k < 12; ++k) // flat before the cameras, at several distances
-        task.views.push_back(test::view_of(rig, kBoard, 0, {turn_about(0, 0, 3.0 * k), {0, 0, 600 + 30.0 * k}}, 0.05, random));
+        task.views.push_back(
+            test::view_of(rig, kBoard, 0, {turn_about(0, 0, 3.0 * k), {0, 0, 600 + 30.0 * k}}, 0.05, random));
     expect_refusal(task, "all views are alike");
 }
 

@@ -18,9 +18,15 @@ StereoModel rendered_rig()
     StereoModel model;
     model.width = 1280;
     model.height = 720;
-    model.left = {777.89276786340088, 779.22841480213208, 638.20879698541989, 359.94927648284801,
+    model.left = {777.89276786340088,
+                  779.22841480213208,
+                  638.20879698541989,
+                  359.94927648284801,
                   {-0.10451280577602631, 0.039583562349614201, 6.4668286917118727e-04, -9.7136284707223563e-04}};
-    model.right = {783.05460860099208, 781.84721187021341, 649.95462525230630, 358.40482391422904,
+    model.right = {783.05460860099208,
+                   781.84721187021341,
+                   649.95462525230630,
+                   358.40482391422904,
                    {-0.14228166762931541, 0.028297523822456185, 1.3748218827529797e-03, -1.1776613385286675e-03}};
     model.right_from_left = {9.9979302529515746e-01,  1.8468642903365546e-02,  8.5332174743929512e-03,
                              -1.8639456633073443e-02, 9.9961830559038156e-01,  2.0391512573594013e-02,
@@ -40,7 +46,8 @@ Position projected(const CameraModel& camera, const std::array<double, 3>& point
 {
     const double x = point[0] / point[2], y = point[1] / point[2], r2 = x * x + y * y;
     const auto& k = camera.distortion;
-    const double scale = (1 + k[0] * r2 + k[1] * r2 * r2 + k[4] * r2 * r2 * r2) / (1 + k[5] * r2 + k[6] * r2 * r2 + k[7] * r2 * r2 * r2);
+    const double scale =
+        (1 + k[0] * r2 + k[1] * r2 * r2 + k[4] * r2 * r2 * r2) / (1 + k[5] * r2 + k[6] * r2 * r2 + k[7] * r2 * r2 * r2);
     return {camera.fx * (x * scale + 2 * k[2] * x * y + k[3] * (r2 + 2 * x * x)) + camera.cx,
             camera.fy * (y * scale + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y) + camera.cy};
 }
@@ -75,7 +82,8 @@ TEST(Rectify, APointLiesOnOneRowAndItsDisparityIsItsDepth)
 {
     const StereoModel model = rendered_rig();
     const Rectification flat = rectify(model, kCrop, "rig.yaml").value();
-    const LensMap left = map_of(model.left, flat.left_rectifying, flat), right = map_of(model.right, flat.right_rectifying, flat);
+    const LensMap left = map_of(model.left, flat.left_rectifying, flat),
+                  right = map_of(model.right, flat.right_rectifying, flat);
     std::mt19937 random{7};
     std::uniform_real_distribution<double> side(-150, 150), depth(400, 1500);
     for (int i = 0; i < 1000; ++i) {
@@ -84,7 +92,8 @@ TEST(Rectify, APointLiesOnOneRowAndItsDisparityIsItsDepth)
         for (std::size_t k = 0; k < 3; ++k)
             in_right[k] += model.translation_mm[k];
         const auto in_flat = turned(flat.left_rectifying, in_left);
-        const double x = flat.focal_px * in_flat[0] / in_flat[2] + flat.cx_px, y = flat.focal_px * in_flat[1] / in_flat[2] + flat.cy_px;
+        const double x = flat.focal_px * in_flat[0] / in_flat[2] + flat.cx_px,
+                     y = flat.focal_px * in_flat[1] / in_flat[2] + flat.cy_px;
         const double disparity = flat.focal_px * flat.baseline_mm / in_flat[2];
         const Position from_left = left.source_of(x, y), from_right = right.source_of(x - disparity, y);
         const Position seen_left = projected(model.left, in_left), seen_right = projected(model.right, in_right);
@@ -93,8 +102,10 @@ TEST(Rectify, APointLiesOnOneRowAndItsDisparityIsItsDepth)
         ASSERT_NEAR(from_right.x, seen_right.x, 1e-8) << "T or R is used the wrong way round";
         ASSERT_NEAR(from_right.y, seen_right.y, 1e-8);
     }
-    EXPECT_NEAR(flat.baseline_mm, std::sqrt(84.985154252604417 * 84.985154252604417 + 1.0246794468807228 * 1.0246794468807228
-                                            + 1.21391461486277 * 1.21391461486277), 1e-9);
+    EXPECT_NEAR(flat.baseline_mm,
+                std::sqrt(84.985154252604417 * 84.985154252604417 + 1.0246794468807228 * 1.0246794468807228 +
+                          1.21391461486277 * 1.21391461486277),
+                1e-9);
 }
 
 TEST(Rectify, EachCameraTurnsHalfTheWay)
@@ -135,7 +146,8 @@ TEST(Rectify, CropLeavesNoPixelWithoutSourceAndKeepAllLosesNone)
     const Rectification crop = rectify(model, kCrop, "rig.yaml").value();
     const Rectification whole = rectify(model, kKeepAll, "rig.yaml").value();
     EXPECT_GT(crop.focal_px, whole.focal_px);
-    for (const auto& [camera, turn] : {std::pair{&model.left, &crop.left_rectifying}, std::pair{&model.right, &crop.right_rectifying}}) {
+    for (const auto& [camera, turn] :
+         {std::pair{&model.left, &crop.left_rectifying}, std::pair{&model.right, &crop.right_rectifying}}) {
         const Built built(map_of(*camera, *turn, crop), 1280, 720);
         EXPECT_EQ(built.table.pixels_with_source(), 1280 * 720);
     }
@@ -143,7 +155,8 @@ TEST(Rectify, CropLeavesNoPixelWithoutSourceAndKeepAllLosesNone)
         for (const double y : {0.0, 719.0}) {
             const Position seen = direction_of(model.left, {x, y}).value();
             const auto ray = turned(whole.left_rectifying, {seen.x, seen.y, 1});
-            const double u = whole.focal_px * ray[0] / ray[2] + whole.cx_px, v = whole.focal_px * ray[1] / ray[2] + whole.cy_px;
+            const double u = whole.focal_px * ray[0] / ray[2] + whole.cx_px,
+                         v = whole.focal_px * ray[1] / ray[2] + whole.cy_px;
             EXPECT_TRUE(u > -0.01 && u < 1279.01 && v > -0.01 && v < 719.01) << u << ' ' << v;
         }
 }
@@ -159,7 +172,10 @@ TEST(Rectify, RefusesWhatIsNoRig)
     };
     EXPECT_NE(refused([](StereoModel& m) { m.left.cx = std::nan(""); }).find("not finite"), std::string::npos);
     EXPECT_NE(refused([](StereoModel& m) { m.translation_mm = {85, 0, 0}; }).find("swapped"), std::string::npos);
-    EXPECT_NE(refused([](StereoModel& m) { m.translation_mm = {1, -85, 0}; }).find("above each other"), std::string::npos);
+    EXPECT_NE(refused([](StereoModel& m) {
+                  m.translation_mm = {1, -85, 0};
+              }).find("above each other"),
+              std::string::npos);
     EXPECT_NE(refused([](StereoModel& m) { m.translation_mm = {-0.085, 0, 0}; }).find("unit: m"), std::string::npos);
     EXPECT_NE(refused([](StereoModel& m) { m.right_from_left[0] = -1; }).find("no rotation"), std::string::npos);
     EXPECT_NE(refused([](StereoModel& m) { m.right.fy = 0; }).find("focal length"), std::string::npos);

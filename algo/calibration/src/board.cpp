@@ -19,13 +19,13 @@ constexpr double kRefineSigma_px = 1.0;
 constexpr std::size_t kMostSaddles = 2500;
 constexpr int kFirstLevelSide_px = 1600;
 constexpr int kLastLevelSide_px = 160;
-constexpr double kWindow = 0.75;          // half window over a square's side, where squares lie on both sides
-constexpr double kLeastRimWindow = 0.25;  // towards the rim of the board, whose squares may be narrow
-constexpr double kSmear_px = 3;           // kept clear of the rim, for the edge there is not sharp
+constexpr double kWindow = 0.75;         // half window over a square's side, where squares lie on both sides
+constexpr double kLeastRimWindow = 0.25; // towards the rim of the board, whose squares may be narrow
+constexpr double kSmear_px = 3;          // kept clear of the rim, for the edge there is not sharp
 constexpr double kMinHalfWindow_px = 2.0;
-constexpr double kMaxHalfWindow_px = 28;  // on the level where the board was found
-constexpr double kMaxMove = 0.3;          // of a square, from the lattice to the refined corner
-constexpr double kMaxBend = 0.12;         // of a square, between a corner and the middle of its neighbours
+constexpr double kMaxHalfWindow_px = 28; // on the level where the board was found
+constexpr double kMaxMove = 0.3;         // of a square, from the lattice to the refined corner
+constexpr double kMaxBend = 0.12;        // of a square, between a corner and the middle of its neighbours
 
 struct LevelSearch
 {
@@ -48,7 +48,8 @@ LevelSearch search_level(ImageView<const std::uint8_t> grey, const Board& board)
     const GreyLevel level = smooth(grey, kSearchSigma_px);
     const std::vector<Saddle> saddles = find_saddles(level, kMostSaddles);
     const int max_side = std::max(board.cols, board.rows) + 3;
-    std::vector<Lattice> lattices = grow_lattices(level, saddles, static_cast<std::size_t>(board.corner_count()), max_side);
+    std::vector<Lattice> lattices =
+        grow_lattices(level, saddles, static_cast<std::size_t>(board.corner_count()), max_side);
 
     LevelSearch result;
     result.width = grey.width;
@@ -66,8 +67,8 @@ LevelSearch search_level(ImageView<const std::uint8_t> grey, const Board& board)
     return result;
 }
 
-/// How far the edge that leaves `at` along `outwards` (one square's step) goes on, as a share of the step: the squares at the
-/// rim of a board may be narrow. `across` is the step along the other edge.
+/// How far the edge that leaves `at` along `outwards` (one square's step) goes on, as a share of the step: the squares
+/// at the rim of a board may be narrow. `across` is the step along the other edge.
 double rim_share(const GreyLevel& level, Point2 at, Point2 outwards, Point2 across)
 {
     constexpr int kProbes = 20;
@@ -184,10 +185,11 @@ BoardSight unseen(std::string reason)
 Status check_board(const Board& board)
 {
     if (std::min(board.cols, board.rows) < kMinBoardSide || std::max(board.cols, board.rows) > kMaxBoardSide)
-        return failure(Fault::kUsage, "a board of %d x %d inner corners cannot be used; give %d to %d a side", board.cols,
-                       board.rows, kMinBoardSide, kMaxBoardSide);
+        return failure(Fault::kUsage, "a board of %d x %d inner corners cannot be used; give %d to %d a side",
+                       board.cols, board.rows, kMinBoardSide, kMaxBoardSide);
     if (!(board.square_mm > 0 && board.square_mm < 1e5))
-        return failure(Fault::kUsage, "a square of %g mm cannot be used; measure the side of one square", board.square_mm);
+        return failure(Fault::kUsage, "a square of %g mm cannot be used; measure the side of one square",
+                       board.square_mm);
     return {};
 }
 
@@ -233,18 +235,20 @@ Status agree_on_order(const Board& board, const BoardSight& left, BoardSight& ri
             turned.first_square_bright != fixed.first_square_bright)
             continue;
         ++allowed;
-        const double score = 0.5 * (dot(fixed.x_direction(), turned.x_direction()) +
-                                    dot(fixed.y_direction(), turned.y_direction()));
+        const double score =
+            0.5 * (dot(fixed.x_direction(), turned.x_direction()) + dot(fixed.y_direction(), turned.y_direction()));
         if (score > best_score) {
             best_score = score;
             best = turned;
         }
     }
     if (allowed == 0)
-        return failure(Fault::kBadData, "the board's colours do not agree between left and right; is it the same board?");
+        return failure(Fault::kBadData,
+                       "the board's colours do not agree between left and right; is it the same board?");
     if (allowed > 1 && best_score < kAlike)
-        return failure(Fault::kBadData, "left and right disagree on the board's first corner; hold its rows level in both "
-                                        "pictures");
+        return failure(Fault::kBadData,
+                       "left and right disagree on the board's first corner; hold its rows level in both "
+                       "pictures");
     right.corners = std::move(best.corners);
     right.first_square_bright = best.first_square_bright;
     return {};

@@ -24,14 +24,19 @@ using PoseVector = Eigen::Matrix<double, 6, 1>;
 struct BundleView
 {
     const Board* board = nullptr;
-    std::span<const Point2> left;  // empty: not seen
+    std::span<const Point2> left; // empty: not seen
     std::span<const Point2> right;
-    Pose pose;                     // board to left camera
+    Pose pose; // board to left camera
     bool used = true;
 };
 
 /// The last one forgets what is far off (Geman and McClure 1985); it needs a good start.
-enum class Loss { kSquare, kHuber, kGemanMcClure };
+enum class Loss
+{
+    kSquare,
+    kHuber,
+    kGemanMcClure
+};
 
 struct Bundle
 {
@@ -59,7 +64,7 @@ Term corner_term(const Bundle& bundle, const BundleView& view, bool in_right, in
 
 struct BundleReport
 {
-    double cost = 0;       // sum of the loss over the corners, px^2
+    double cost = 0; // sum of the loss over the corners, px^2
     int iterations = 0;
     bool settled = false;
 };
@@ -67,8 +72,8 @@ struct BundleReport
 /// Levenberg-Marquardt; the board poses are eliminated (Schur complement) and put back.
 BundleReport minimise(Bundle& bundle, int max_iterations);
 
-/// Inverse of the curvature in the shared numbers, poses eliminated; zero rows for numbers that are not fitted. Times the
-/// variance of a coordinate it is the covariance. Not finite when the views do not determine the numbers.
+/// Inverse of the curvature in the shared numbers, poses eliminated; zero rows for numbers that are not fitted. Times
+/// the variance of a coordinate it is the covariance. Not finite when the views do not determine the numbers.
 SharedMatrix inverse_curvature(const Bundle& bundle);
 
 /// Predicted minus seen for every corner of one side of a view.

@@ -52,8 +52,7 @@ std::optional<BoardFit> measure_board(const StereoRig& rig, const Board& board, 
     fit.scale = (turn.transpose() * mixed).trace() / spread;
     fit.distance_mm = measured_mean.norm();
     for (std::size_t k = 0; k < truth.size(); ++k)
-        fit.shape_mm +=
-            ((measured[k] - measured_mean) - turn * (truth[k] - truth_mean)).squaredNorm() / count;
+        fit.shape_mm += ((measured[k] - measured_mean) - turn * (truth[k] - truth_mean)).squaredNorm() / count;
     fit.shape_mm = std::sqrt(fit.shape_mm);
     return fit;
 }

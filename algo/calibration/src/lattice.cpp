@@ -13,21 +13,24 @@ namespace dicot::calibration {
 
 namespace {
 
-constexpr double kAlongEdge = 0.960;      // cosine between an edge and the next crossing on it
-constexpr double kSameEdge = 0.930;       // cosine between a link and the axis of the crossing at its end
-constexpr double kNearPrediction = 0.28;  // of the spacing
-constexpr double kEdgeContrast = 0.2;     // of the weaker crossing's contrast
-constexpr double kWeakContrast = 4;       // grey levels, where the lattice says that a crossing must be
+constexpr double kAlongEdge = 0.960;     // cosine between an edge and the next crossing on it
+constexpr double kSameEdge = 0.930;      // cosine between a link and the axis of the crossing at its end
+constexpr double kNearPrediction = 0.28; // of the spacing
+constexpr double kEdgeContrast = 0.2;    // of the weaker crossing's contrast
+constexpr double kWeakContrast = 4;      // grey levels, where the lattice says that a crossing must be
 constexpr double kMinSpacing_px = 4;
-constexpr std::size_t kSureNodes = 9;     // from which on a lattice's word is taken for a weak crossing
-constexpr double kBend = 0.12;            // of a step, between a corner and the middle of its neighbours
-constexpr double kStraightShare = 0.7;    // of the corners of a true board bend less
-constexpr int kTries = 12;                // crossings looked at, nearest first, before an edge counts as ended
-constexpr double kSettledContrast = 0.5;  // of a whole board's contrast, below which no better board is looked for
+constexpr std::size_t kSureNodes = 9;    // from which on a lattice's word is taken for a weak crossing
+constexpr double kBend = 0.12;           // of a step, between a corner and the middle of its neighbours
+constexpr double kStraightShare = 0.7;   // of the corners of a true board bend less
+constexpr int kTries = 12;               // crossings looked at, nearest first, before an edge counts as ended
+constexpr double kSettledContrast = 0.5; // of a whole board's contrast, below which no better board is looked for
 
 constexpr std::array<Cell, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
 
-Cell beyond(Cell cell, Cell step, int times = 1) { return {cell.i + times * step.i, cell.j + times * step.j}; }
+Cell beyond(Cell cell, Cell step, int times = 1)
+{
+    return {cell.i + times * step.i, cell.j + times * step.j};
+}
 
 class Growth
 {
@@ -246,8 +249,8 @@ private:
         if (nodes_.size() < kSureNodes)
             return false;
         const double reach = std::max(0.35 * where.spacing_px, 2.5);
-        const std::optional<Point2> at = refine_crossing(level_, where.at, reach * from.u, reach * from.v,
-                                                         kNearPrediction * where.spacing_px);
+        const std::optional<Point2> at =
+            refine_crossing(level_, where.at, reach * from.u, reach * from.v, kNearPrediction * where.spacing_px);
         if (!at)
             return false;
         for (const double share : {0.3, 0.2, 0.42}) {

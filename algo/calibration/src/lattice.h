@@ -32,8 +32,8 @@ using Lattice = std::map<Cell, Node>;
 /// too, but bend.
 bool lies_straight(const Lattice& lattice);
 
-/// All straight lattices, each crossing in at most one, largest first. Growth stops at `max_side` nodes in a row; once a lattice
-/// of `whole_nodes` is there, much paler crossings start no further ones.
+/// All straight lattices, each crossing in at most one, largest first. Growth stops at `max_side` nodes in a row; once
+/// a lattice of `whole_nodes` is there, much paler crossings start no further ones.
 std::vector<Lattice> grow_lattices(const GreyLevel& level, const std::vector<Saddle>& saddles, std::size_t whole_nodes,
                                    int max_side);
 

@@ -29,8 +29,9 @@ double widest_tilt_deg(const std::vector<Pose>& poses, std::span<const Sight> si
     for (std::size_t p = 0; p < poses.size(); ++p)
         for (std::size_t q = 0; q < p; ++q)
             if (!sights[p].corners.empty() && !sights[q].corners.empty())
-                least_cosine = std::min(least_cosine, (poses[p].turn * Eigen::Vector3d::UnitZ())
-                                                          .dot(poses[q].turn * Eigen::Vector3d::UnitZ()));
+                least_cosine =
+                    std::min(least_cosine,
+                             (poses[p].turn * Eigen::Vector3d::UnitZ()).dot(poses[q].turn * Eigen::Vector3d::UnitZ()));
     return degrees_of_cosine(least_cosine);
 }
 
@@ -52,7 +53,10 @@ double robust_deviation(std::vector<double> values)
     return 1.4826 * median(std::move(values));
 }
 
-double degrees_of_cosine(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi; }
+double degrees_of_cosine(double cosine)
+{
+    return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
+}
 
 LensFit fit_lens(std::span<const Sight> sights, int width, int height, bool fit_k3)
 {

@@ -17,11 +17,11 @@ struct Sight
 struct LensFit
 {
     LensVector lens = LensVector::Zero();
-    std::vector<Pose> poses;     ///< by view; meaningless where the view was not seen
-    std::vector<double> rms_px;  ///< by view; 0 where not seen
+    std::vector<Pose> poses;    ///< by view; meaningless where the view was not seen
+    std::vector<double> rms_px; ///< by view; 0 where not seen
     double median_rms_px = 0;
-    double focal_deviation = 0;  ///< relative standard deviation of the worse focal length
-    double tilt_spread_deg = 0;  ///< largest angle between two boards
+    double focal_deviation = 0; ///< relative standard deviation of the worse focal length
+    double tilt_spread_deg = 0; ///< largest angle between two boards
 };
 
 /// Fits the lens to every seen view, robustly. At least one view must be seen.

@@ -10,10 +10,10 @@ namespace dicot::calibration {
 
 namespace {
 
-constexpr double kLineCounts = 0.5;      // of a line, from which on it counts as found
-constexpr double kBorderReach = 0.75;    // of a step beyond the last line, where the next one would be
-constexpr double kFewShare = 0.25;       // of the board's corners: texture joins up that many
-constexpr int kMinContrast = 24;         // grey levels between the 1st and the 99th percentile
+constexpr double kLineCounts = 0.5;   // of a line, from which on it counts as found
+constexpr double kBorderReach = 0.75; // of a step beyond the last line, where the next one would be
+constexpr double kFewShare = 0.25;    // of the board's corners: texture joins up that many
+constexpr int kMinContrast = 24;      // grey levels between the 1st and the 99th percentile
 
 int count_in_line(const Lattice& lattice, bool column, int k)
 {
@@ -115,8 +115,9 @@ std::string explain_picture(ImageView<const std::uint8_t> grey)
 
 std::string explain_miss(const Lattice& best, bool larger_board, const Board& board, int width, int height)
 {
-    const std::string nothing = text("no chessboard of %d x %d inner corners found; is it whole in the picture, sharp and evenly lit?",
-                    board.cols, board.rows);
+    const std::string nothing =
+        text("no chessboard of %d x %d inner corners found; is it whole in the picture, sharp and evenly lit?",
+             board.cols, board.rows);
     if (static_cast<double>(best.size()) < kFewShare * board.corner_count())
         return nothing;
     const Extent e = trimmed(best);

@@ -58,7 +58,10 @@ LensVector lens_vector(const Lens& lens)
     return v;
 }
 
-Lens lens_of(const LensVector& v) { return {v[0], v[1], v[2], v[3], {v[4], v[5], v[6], v[7], v[8]}}; }
+Lens lens_of(const LensVector& v)
+{
+    return {v[0], v[1], v[2], v[3], {v[4], v[5], v[6], v[7], v[8]}};
+}
 
 Turn turn_of(const Eigen::Quaterniond& q)
 {

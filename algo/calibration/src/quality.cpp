@@ -20,7 +20,7 @@ constexpr int kGoodPairs = 10;
 constexpr int kUsablePairs = 6;
 constexpr double kGoodEpipolar_px = 0.25;
 constexpr double kUsableEpipolar_px = 0.6;
-constexpr double kGoodDepth_percent = 0.3;   // of the distance
+constexpr double kGoodDepth_percent = 0.3; // of the distance
 constexpr double kUsableDepth_percent = 1.5;
 constexpr double kGoodCoverage = 0.55;
 constexpr double kUsableCoverage = 0.25;
@@ -29,8 +29,10 @@ void count_coverage(const CalibrationTask& task, const StereoCalibration& calibr
 {
     const auto count = [&](Coverage& coverage, const std::vector<Point2>& corners) {
         for (const Point2& p : corners) {
-            const int col = std::clamp(static_cast<int>((p.x + 0.5) * kCoverageCols / task.width), 0, kCoverageCols - 1);
-            const int row = std::clamp(static_cast<int>((p.y + 0.5) * kCoverageRows / task.height), 0, kCoverageRows - 1);
+            const int col =
+                std::clamp(static_cast<int>((p.x + 0.5) * kCoverageCols / task.width), 0, kCoverageCols - 1);
+            const int row =
+                std::clamp(static_cast<int>((p.y + 0.5) * kCoverageRows / task.height), 0, kCoverageRows - 1);
             ++coverage.corners[static_cast<std::size_t>(row * kCoverageCols + col)];
         }
     };
@@ -128,19 +130,24 @@ void judge(const StereoCalibration& calibration, const WorkingRange& range, Qual
         // What forbids the use comes first.
         quality.advice.insert(usable ? quality.advice.end() : quality.advice.begin(), std::move(advice));
     };
-    gate(quality.epipolar_rms_px <= kGoodEpipolar_px, quality.epipolar_rms_px <= kUsableEpipolar_px,
-         text("rows of the two pictures miss each other by %.2f px: take sharp pictures at the same moment, with a flat "
-              "board", quality.epipolar_rms_px));
+    gate(
+        quality.epipolar_rms_px <= kGoodEpipolar_px, quality.epipolar_rms_px <= kUsableEpipolar_px,
+        text("rows of the two pictures miss each other by %.2f px: take sharp pictures at the same moment, with a flat "
+             "board",
+             quality.epipolar_rms_px));
     for (const DepthError& depth : quality.depth)
         if (depth.distance_mm == 800) {
             const double percent = 100 * depth.calibration_mm / depth.distance_mm;
-            gate(percent <= kGoodDepth_percent, percent <= kUsableDepth_percent,
-                 text("depth at %.0f mm is uncertain by %.1f mm: take more pairs, the board tilted by 20 to 40 degrees, "
-                      "near and far", depth.distance_mm, depth.calibration_mm));
+            gate(
+                percent <= kGoodDepth_percent, percent <= kUsableDepth_percent,
+                text("depth at %.0f mm is uncertain by %.1f mm: take more pairs, the board tilted by 20 to 40 degrees, "
+                     "near and far",
+                     depth.distance_mm, depth.calibration_mm));
         }
     gate(quality.held_out_size_percent <= kGoodDepth_percent, quality.held_out_size_percent <= kUsableDepth_percent,
          text("boards that were held out come out %.2f %% wrong in size: take more pairs at different distances and "
-              "tilts", quality.held_out_size_percent));
+              "tilts",
+              quality.held_out_size_percent));
     gate(calibration.pairs_used >= kGoodPairs, calibration.pairs_used >= kUsablePairs,
          text("%d pairs were used: take at least %d, better 15 to 25", calibration.pairs_used, kGoodPairs));
     const Coverage& thinner = quality.left.share < quality.right.share ? quality.left : quality.right;
@@ -164,9 +171,12 @@ void judge(const StereoCalibration& calibration, const WorkingRange& range, Qual
 const char* name_of(Verdict verdict)
 {
     switch (verdict) {
-    case Verdict::kGood: return "good";
-    case Verdict::kUsable: return "usable";
-    case Verdict::kRedo: return "redo";
+    case Verdict::kGood:
+        return "good";
+    case Verdict::kUsable:
+        return "usable";
+    case Verdict::kRedo:
+        return "redo";
     }
     return "";
 }

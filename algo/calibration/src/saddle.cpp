@@ -6,7 +6,10 @@
 
 namespace dicot::calibration {
 
-double length(Point2 p) { return std::sqrt(dot(p, p)); }
+double length(Point2 p)
+{
+    return std::sqrt(dot(p, p));
+}
 
 Point2 unit(Point2 p)
 {
@@ -17,11 +20,11 @@ Point2 unit(Point2 p)
 namespace {
 
 constexpr int kRing = 32;
-constexpr double kMinContrast = 8;        // grey levels; sensor noise after smoothing is below 2
-constexpr float kMinResponse = 0.6F;      // a crossing of 8 grey levels at the smoothing used
-constexpr double kMinOpposite = 0.80;     // cosine between an edge and its continuation
-constexpr double kMinOpening = 0.17;      // sine of the angle between the two edges
-constexpr double kMaxOddShare = 0.35;     // energy that a half turn around the crossing does not preserve
+constexpr double kMinContrast = 8;    // grey levels; sensor noise after smoothing is below 2
+constexpr float kMinResponse = 0.6F;  // a crossing of 8 grey levels at the smoothing used
+constexpr double kMinOpposite = 0.80; // cosine between an edge and its continuation
+constexpr double kMinOpening = 0.17;  // sine of the angle between the two edges
+constexpr double kMaxOddShare = 0.35; // energy that a half turn around the crossing does not preserve
 constexpr std::array<double, 2> kRadii_px{5.0, 3.2};
 
 std::array<Point2, kRing> ring_directions()
@@ -92,8 +95,8 @@ Point2 level_point(const GreyLevel& level, int x, int y)
     const double dy = 0.5 * (level.at(x, y + 1) - level.at(x, y - 1));
     const double xx = level.at(x + 1, y) + level.at(x - 1, y) - 2.0 * level.at(x, y);
     const double yy = level.at(x, y + 1) + level.at(x, y - 1) - 2.0 * level.at(x, y);
-    const double xy = 0.25 * (level.at(x + 1, y + 1) - level.at(x - 1, y + 1) - level.at(x + 1, y - 1) +
-                              level.at(x - 1, y - 1));
+    const double xy =
+        0.25 * (level.at(x + 1, y + 1) - level.at(x - 1, y + 1) - level.at(x + 1, y - 1) + level.at(x - 1, y - 1));
     const double determinant = xx * yy - xy * xy;
     const double step_x = -(yy * dx - xy * dy) / determinant;
     const double step_y = -(xx * dy - xy * dx) / determinant;

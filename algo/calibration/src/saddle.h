@@ -26,11 +26,26 @@ std::optional<Saddle> read_saddle(const GreyLevel& level, Point2 at, double radi
 /// All crossings of a smoothed picture, strongest first, at most `most`.
 std::vector<Saddle> find_saddles(const GreyLevel& level, std::size_t most);
 
-inline Point2 operator+(Point2 p, Point2 q) { return {p.x + q.x, p.y + q.y}; }
-inline Point2 operator-(Point2 p, Point2 q) { return {p.x - q.x, p.y - q.y}; }
-inline Point2 operator*(double s, Point2 p) { return {s * p.x, s * p.y}; }
-inline double dot(Point2 p, Point2 q) { return p.x * q.x + p.y * q.y; }
-inline double cross(Point2 p, Point2 q) { return p.x * q.y - p.y * q.x; }
+inline Point2 operator+(Point2 p, Point2 q)
+{
+    return {p.x + q.x, p.y + q.y};
+}
+inline Point2 operator-(Point2 p, Point2 q)
+{
+    return {p.x - q.x, p.y - q.y};
+}
+inline Point2 operator*(double s, Point2 p)
+{
+    return {s * p.x, s * p.y};
+}
+inline double dot(Point2 p, Point2 q)
+{
+    return p.x * q.x + p.y * q.y;
+}
+inline double cross(Point2 p, Point2 q)
+{
+    return p.x * q.y - p.y * q.x;
+}
 double length(Point2 p);
 Point2 unit(Point2 p);
 

@@ -14,10 +14,10 @@ namespace dicot::calibration {
 
 namespace {
 
-constexpr double kSameTurn = 0.985;           // cosine of 10 degrees
-constexpr double kOutlierRatio = 4;           // of the median view's RMS
+constexpr double kSameTurn = 0.985; // cosine of 10 degrees
+constexpr double kOutlierRatio = 4; // of the median view's RMS
 constexpr double kOutlierLeast_px = 0.4;
-constexpr double kMovedRatio = 3;             // of a view's RMS in one camera alone
+constexpr double kMovedRatio = 3; // of a view's RMS in one camera alone
 constexpr double kRoughLoss_px = 1.5;
 constexpr double kLossDeviations = 3;
 constexpr double kLeastDeviation_px = 0.01;
@@ -27,7 +27,10 @@ Bundle bundle_of(const CalibrationTask& task)
 {
     Bundle bundle;
     for (const View& view : task.views)
-        bundle.views.push_back({&task.boards[static_cast<std::size_t>(view.board)], view.left, view.right, {},
+        bundle.views.push_back({&task.boards[static_cast<std::size_t>(view.board)],
+                                view.left,
+                                view.right,
+                                {},
                                 !view.left.empty() || !view.right.empty()});
     std::fill(bundle.fitted.begin(), bundle.fitted.end(), true);
     for (const int first : {kLeftLens, kRightLens})
@@ -37,7 +40,10 @@ Bundle bundle_of(const CalibrationTask& task)
     return bundle;
 }
 
-bool is_pair(const BundleView& view) { return !view.left.empty() && !view.right.empty(); }
+bool is_pair(const BundleView& view)
+{
+    return !view.left.empty() && !view.right.empty();
+}
 
 double rms_of(const Bundle& bundle, const BundleView& view, bool in_right)
 {
@@ -128,11 +134,14 @@ bool drop_outliers(Bundle& bundle, const std::array<LensFit, 2>& lens, std::vect
         dropped = true;
         const double alone = std::max(lens[0].rms_px[v], lens[1].rms_px[v]);
         if (is_pair(view) && rms > kMovedRatio * alone)
-            reasons[v] = text("left and right fit by themselves (%.2f px) but not together (%.2f px); did the board move "
-                              "between the two pictures?", alone, rms);
+            reasons[v] =
+                text("left and right fit by themselves (%.2f px) but not together (%.2f px); did the board move "
+                     "between the two pictures?",
+                     alone, rms);
         else
-            reasons[v] = text("corners are off by %.2f px where the others are off by %.2f px; blurred, or a bent board?",
-                              rms, limit / kOutlierRatio);
+            reasons[v] =
+                text("corners are off by %.2f px where the others are off by %.2f px; blurred, or a bent board?", rms,
+                     limit / kOutlierRatio);
     }
     return dropped;
 }
@@ -140,7 +149,11 @@ bool drop_outliers(Bundle& bundle, const std::array<LensFit, 2>& lens, std::vect
 StereoCalibration outcome(const CalibrationTask& task, const Bundle& bundle, std::vector<std::string> reasons)
 {
     StereoCalibration c;
-    c.rig = {task.width, task.height, lens_of(bundle.lens[0]), lens_of(bundle.lens[1]), turn_of(bundle.rig.turn),
+    c.rig = {task.width,
+             task.height,
+             lens_of(bundle.lens[0]),
+             lens_of(bundle.lens[1]),
+             turn_of(bundle.rig.turn),
              {bundle.rig.shift.x(), bundle.rig.shift.y(), bundle.rig.shift.z()}};
     c.warp_mm = {bundle.warp[0], bundle.warp[1]};
     std::array<double, 2> sums{};
@@ -225,9 +238,10 @@ Result<StereoCalibration> solve_stereo(const CalibrationTask& task)
 
     StereoCalibration result = outcome(task, bundle, std::move(reasons));
     if (result.pairs_used < kMinPairs)
-        return failure(Fault::kBadData, "only %d of %zu pairs fit together; at least %d are needed. Were the pictures taken at "
-                                        "the same moments by two cameras that stand still to each other?", result.pairs_used,
-                       task.views.size(), kMinPairs);
+        return failure(Fault::kBadData,
+                       "only %d of %zu pairs fit together; at least %d are needed. Were the pictures taken at "
+                       "the same moments by two cameras that stand still to each other?",
+                       result.pairs_used, task.views.size(), kMinPairs);
     TRY(check_sides(result.rig.shift_mm));
     return result;
 }

@@ -79,9 +79,9 @@ void match_cost(std::uint16_t* out, int n, int disparities, CostRow left, CostRo
         const __m128i census = _mm_set1_epi8(static_cast<char>(left.census[i]));
         for (int r = 0; r < disparities; r += 8) {
             const int j = i + r;
-            const __m128i difference = _mm_add_epi16(
-                _mm_add_epi16(distance8(red, right.red + j), distance8(green, right.green + j)),
-                distance8(blue, right.blue + j));
+            const __m128i difference =
+                _mm_add_epi16(_mm_add_epi16(distance8(red, right.red + j), distance8(green, right.green + j)),
+                              distance8(blue, right.blue + j));
             const __m128i bits =
                 _mm_xor_si128(census, _mm_loadl_epi64(reinterpret_cast<const __m128i*>(right.census + j)));
             const __m128i hamming =
@@ -213,10 +213,11 @@ struct Remap
     // weights of the columns: maddubs takes one signed factor, and a weight may be 128.
     static Vec columns(const std::uint8_t* const (&from)[4], long long row, Vec surplus_bits, Vec weights)
     {
-        const Vec pairs = _mm256_setr_epi8(0, 3, 1, 4, 2, 5, -1, -1, 8, 11, 9, 12, 10, 13, -1, -1, 0, 3, 1, 4, 2, 5, -1, -1,
-                                           8, 11, 9, 12, 10, 13, -1, -1);
+        const Vec pairs = _mm256_setr_epi8(0, 3, 1, 4, 2, 5, -1, -1, 8, 11, 9, 12, 10, 13, -1, -1, 0, 3, 1, 4, 2, 5, -1,
+                                           -1, 8, 11, 9, 12, 10, 13, -1, -1);
         // Four loads: a gather takes longer, several times so on cores with mended microcode.
-        const Vec bytes = _mm256_set_m128i(two_loads(from[2] + row, from[3] + row), two_loads(from[0] + row, from[1] + row));
+        const Vec bytes =
+            _mm256_set_m128i(two_loads(from[2] + row, from[3] + row), two_loads(from[0] + row, from[1] + row));
         const Vec pixels = _mm256_shuffle_epi8(_mm256_srlv_epi64(bytes, surplus_bits), pairs);
         return _mm256_maddubs_epi16(weights, _mm256_xor_si256(pixels, _mm256_set1_epi8(-128)));
     }
@@ -229,8 +230,8 @@ struct Remap
         const Vec start = _mm256_permutevar8x32_epi32(both, _mm256_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1));
         const Vec step = _mm256_permutevar8x32_epi32(both, _mm256_setr_epi32(2, 2, 2, 2, 3, 3, 3, 3));
         const Vec way = _mm256_mullo_epi32(step, _mm256_add_epi32(ramp, _mm256_set1_epi32(first)));
-        const Vec fine = _mm256_srai_epi32(
-            _mm256_add_epi32(_mm256_add_epi32(start, way), _mm256_set1_epi32(1 << 8)), 9);
+        const Vec fine =
+            _mm256_srai_epi32(_mm256_add_epi32(_mm256_add_epi32(start, way), _mm256_set1_epi32(1 << 8)), 9);
         const Vec held = _mm256_max_epi32(_mm256_min_epi32(fine, last), _mm256_setzero_si256());
         const Vec same = _mm256_cmpeq_epi32(fine, held);
         const __m128i inside = _mm_and_si128(_mm256_castsi256_si128(same), _mm256_extracti128_si256(same, 1));
@@ -246,10 +247,11 @@ struct Remap
 
         // Weights of the columns as bytes (one, second) four times a pixel, of the rows as words twice a pixel.
         const __m128i a = _mm_or_si128(_mm256_castsi256_si128(one), _mm_slli_epi32(_mm256_castsi256_si128(second), 8));
-        const Vec by_column = _mm256_shuffle_epi8(
-            _mm256_cvtepu32_epi64(a), _mm256_setr_epi8(0, 1, 0, 1, 0, 1, 0, 1, 8, 9, 8, 9, 8, 9, 8, 9, 0, 1, 0, 1, 0, 1, 0, 1,
-                                                       8, 9, 8, 9, 8, 9, 8, 9));
-        const __m128i b = _mm_or_si128(_mm256_extracti128_si256(one, 1), _mm_slli_epi32(_mm256_extracti128_si256(second, 1), 16));
+        const Vec by_column = _mm256_shuffle_epi8(_mm256_cvtepu32_epi64(a),
+                                                  _mm256_setr_epi8(0, 1, 0, 1, 0, 1, 0, 1, 8, 9, 8, 9, 8, 9, 8, 9, 0, 1,
+                                                                   0, 1, 0, 1, 0, 1, 8, 9, 8, 9, 8, 9, 8, 9));
+        const __m128i b =
+            _mm_or_si128(_mm256_extracti128_si256(one, 1), _mm_slli_epi32(_mm256_extracti128_si256(second, 1), 16));
         const Vec by_row = _mm256_cvtepu32_epi64(b);
 
         const __m128i offset = _mm_add_epi32(row, load);

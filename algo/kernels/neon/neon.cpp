@@ -432,7 +432,8 @@ uint16x4_t remap_pixel(int x, int y, const RemapSource& source)
     const std::uint8_t* from = source.rgb + above * source.stride_bytes + load;
     const uint16x4_t top = blend_columns(pixel_pair(from, surplus), one, second);
     const uint16x4_t bottom = blend_columns(pixel_pair(from + source.stride_bytes, surplus), one, second);
-    const uint32x4_t sum = vmlal_n_u16(vmull_n_u16(top, static_cast<std::uint16_t>(128 - b)), bottom, static_cast<std::uint16_t>(b));
+    const uint32x4_t sum =
+        vmlal_n_u16(vmull_n_u16(top, static_cast<std::uint16_t>(128 - b)), bottom, static_cast<std::uint16_t>(b));
     return vrshrn_n_u32(sum, 14);
 }
 

@@ -23,7 +23,10 @@ int squared_distance(LabRow p, LabRow q, int i)
     return l * l + a * a + b * b;
 }
 
-std::uint32_t round_q15(std::uint32_t product) { return (product + (1u << 14)) >> 15; }
+std::uint32_t round_q15(std::uint32_t product)
+{
+    return (product + (1u << 14)) >> 15;
+}
 
 void support_weights(PairU16* out, int n, LabRow p, LabRow q_low, LabRow q_high, const std::uint16_t* colour,
                      PairU16 spatial)
@@ -94,8 +97,9 @@ void remap_row(std::uint8_t* rgb, int n, const RemapSpan* spans, int cell_log2, 
                 // On the last column or row the second of the two weighs nothing.
                 const int left = x >> 7, right = left + (x % 128 != 0), a = x & 127;
                 const int above = y >> 7, below = above + (y % 128 != 0), b = y & 127;
-                value = ((128 - b) * ((128 - a) * pixel(left, above) + a * pixel(right, above))
-                         + b * ((128 - a) * pixel(left, below) + a * pixel(right, below)) + (1 << 13)) >> 14;
+                value = ((128 - b) * ((128 - a) * pixel(left, above) + a * pixel(right, above)) +
+                         b * ((128 - a) * pixel(left, below) + a * pixel(right, below)) + (1 << 13)) >>
+                        14;
             }
             rgb[3 * i + channel] = static_cast<std::uint8_t>(value);
         }

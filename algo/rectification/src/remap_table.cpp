@@ -87,11 +87,14 @@ Result<RemapTable> RemapTable::build(const LensMap& map, int width, int height, 
             continue;
         table.find_row_ranges(table.scratch_);
         if (table.pixels_with_source_ == 0)
-            return failure(Fault::kBadData, "%s: no pixel of the rectified picture lies in the camera's picture: calibrate again", name);
+            return failure(Fault::kBadData,
+                           "%s: no pixel of the rectified picture lies in the camera's picture: calibrate again", name);
         return table;
     }
-    return failure(Fault::kBadData, "%s: the lens bends the picture so much that no table is exact to 1/64 px: calibrate again, or "
-                   "crop more", name);
+    return failure(Fault::kBadData,
+                   "%s: the lens bends the picture so much that no table is exact to 1/64 px: calibrate again, or "
+                   "crop more",
+                   name);
 }
 
 // A bilinear patch with its corners on a bent surface lies on one side of it. Half the sag is taken off each corner, so
@@ -106,8 +109,8 @@ void RemapTable::fill_corners(const LensMap& map)
             const double x = column * cell;
             const double y = row * cell;
             const Position at = map.source_of(x, y);
-            const Position around[] = {map.source_of(x - half, y), map.source_of(x + half, y), map.source_of(x, y - half),
-                                       map.source_of(x, y + half)};
+            const Position around[] = {map.source_of(x - half, y), map.source_of(x + half, y),
+                                       map.source_of(x, y - half), map.source_of(x, y + half)};
             const double bend_x = ((around[0].x + around[1].x) + (around[2].x + around[3].x)) - 4 * at.x;
             const double bend_y = ((around[0].y + around[1].y) + (around[2].y + around[3].y)) - 4 * at.y;
             corners_[i++] = {corner_of(at.x - bend_x / 4), corner_of(at.y - bend_y / 4)};
@@ -119,7 +122,8 @@ void RemapTable::row_spans(int y, std::span<RemapSpan> spans) const
 {
     const int v = y & (cell_px() - 1);
     const int rest = cell_px() - v;
-    const Corner* above = &corners_[static_cast<std::size_t>(y >> cell_log2_) * static_cast<std::size_t>(columns() + 1)];
+    const Corner* above =
+        &corners_[static_cast<std::size_t>(y >> cell_log2_) * static_cast<std::size_t>(columns() + 1)];
     const Corner* below = above + columns() + 1;
     // A corner has 10 bits, each of the two weights adds cell_log2 bits, and the rest to 16 is a shift.
     const int step_scale = 1 << (kRemapFraction - kCornerFraction - 2 * cell_log2_);
@@ -127,8 +131,8 @@ void RemapTable::row_spans(int y, std::span<RemapSpan> spans) const
     Corner left{above[0].x * rest + below[0].x * v, above[0].y * rest + below[0].y * v};
     for (int i = 0; i < columns(); ++i) {
         const Corner right{above[i + 1].x * rest + below[i + 1].x * v, above[i + 1].y * rest + below[i + 1].y * v};
-        spans[static_cast<std::size_t>(i)] = {left.x * start_scale, left.y * start_scale, (right.x - left.x) * step_scale,
-                                              (right.y - left.y) * step_scale};
+        spans[static_cast<std::size_t>(i)] = {left.x * start_scale, left.y * start_scale,
+                                              (right.x - left.x) * step_scale, (right.y - left.y) * step_scale};
         left = right;
     }
 }
@@ -199,7 +203,9 @@ void remap(const RemapTable& table, ImageView<const std::uint8_t> source, ImageV
                 const int above = std::min(at.y >> kRemapWeightBits, source.height - 2), b = at.y - 128 * above;
                 const std::uint8_t* top = source.row(above) + left;
                 const std::uint8_t* bottom = source.row(above + 1) + left;
-                value = ((128 - b) * ((128 - a) * top[0] + a * top[1]) + b * ((128 - a) * bottom[0] + a * bottom[1]) + (1 << 13)) >> 14;
+                value = ((128 - b) * ((128 - a) * top[0] + a * top[1]) + b * ((128 - a) * bottom[0] + a * bottom[1]) +
+                         (1 << 13)) >>
+                        14;
             }
             rectified.at(x, y) = static_cast<std::uint8_t>(value);
         }

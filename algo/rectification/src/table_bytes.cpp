@@ -95,8 +95,10 @@ Result<RemapTable> RemapTable::read(std::span<const std::byte> bytes, Arena& are
     if (bytes.size() < kHeadBytes + kChecksumBytes || std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0)
         return refused("no rectification table");
     ByteReader head(bytes.subspan(kMagic.size()));
-    const std::uint32_t width = head.number(4), height = head.number(4), cell = head.number(4), fraction = head.number(4);
-    if (width < 8 || height < 8 || width > 16384 || height > 16384 || (cell != 4 && cell != 8) || fraction != kCornerFraction)
+    const std::uint32_t width = head.number(4), height = head.number(4), cell = head.number(4),
+                        fraction = head.number(4);
+    if (width < 8 || height < 8 || width > 16384 || height > 16384 || (cell != 4 && cell != 8) ||
+        fraction != kCornerFraction)
         return refused("a rectification table of a kind that is not known");
     RemapTable table;
     table.width_ = static_cast<int>(width);

@@ -59,7 +59,10 @@ Point3 turned(const Turn& t, const Point3& p) noexcept
             t[6] * p.x + t[7] * p.y + t[8] * p.z};
 }
 
-Turn transposed(const Turn& t) noexcept { return {t[0], t[3], t[6], t[1], t[4], t[7], t[2], t[5], t[8]}; }
+Turn transposed(const Turn& t) noexcept
+{
+    return {t[0], t[3], t[6], t[1], t[4], t[7], t[2], t[5], t[8]};
+}
 
 Turn product(const Turn& a, const Turn& b) noexcept
 {

@@ -26,7 +26,8 @@ struct CameraFile
 
 void add_matrix(std::string& text, const char* key, std::size_t rows, std::size_t columns, const double* values)
 {
-    text += std::string{key} + ":\n  rows: " + std::to_string(rows) + "\n  cols: " + std::to_string(columns) + "\n  data: [";
+    text += std::string{key} + ":\n  rows: " + std::to_string(rows) + "\n  cols: " + std::to_string(columns) +
+            "\n  data: [";
     for (std::size_t i = 0; i < rows * columns; ++i) {
         char digits[32]; // to_chars, not printf: a locale must not turn the point into a comma
         const auto end = std::to_chars(digits, digits + sizeof digits, values[i]);
@@ -37,8 +38,8 @@ void add_matrix(std::string& text, const char* key, std::size_t rows, std::size_
 
 std::string text_of(const RigFile& rig, const RigCamera& camera, const char* camera_name)
 {
-    std::string text = "image_width: " + std::to_string(rig.width) + "\nimage_height: " + std::to_string(rig.height)
-                       + "\ncamera_name: " + camera_name + "\n";
+    std::string text = "image_width: " + std::to_string(rig.width) + "\nimage_height: " + std::to_string(rig.height) +
+                       "\ncamera_name: " + camera_name + "\n";
     add_matrix(text, "camera_matrix", 3, 3, (*camera.intrinsic)[0].data());
     const Distortion distortion = camera.distortion.value_or(Distortion{5, {}});
     const std::size_t count = distortion.count > 5 ? 8 : 5;
@@ -53,7 +54,8 @@ std::string text_of(const RigFile& rig, const RigCamera& camera, const char* cam
 }
 
 template <std::size_t Rows, std::size_t Columns>
-Status take_matrix(YamlEvents& events, std::string_view key, std::optional<Matrix<Rows, Columns>>& into, const char* shape)
+Status take_matrix(YamlEvents& events, std::string_view key, std::optional<Matrix<Rows, Columns>>& into,
+                   const char* shape)
 {
     const RawMatrix raw = TRY(read_matrix(events, key));
     if (raw.rows != static_cast<int>(Rows) || raw.columns != static_cast<int>(Columns))
@@ -94,7 +96,8 @@ Result<CameraFile> read_camera(const std::string& path)
     const std::size_t size = TRY(input.read(text));
     YamlEvents events{std::span{text}.first(size), path.c_str()};
     if (events.kind() != Kind::kMapStart)
-        return events.status().ok() ? events.fault("no camera's description: keys and values are expected") : events.status();
+        return events.status().ok() ? events.fault("no camera's description: keys and values are expected")
+                                    : events.status();
     events.next();
     CameraFile file;
     while (events.kind() == Kind::kScalar) {
@@ -104,10 +107,12 @@ Result<CameraFile> read_camera(const std::string& path)
     }
     if (events.kind() != Kind::kMapEnd)
         return events.status().ok() ? events.fault("a key is expected") : events.status();
-    if (!file.camera.intrinsic || !file.camera.distortion || !file.camera.rectifying || !file.camera.projection || file.width < 1
-        || file.height < 1 || file.width > kMaxRigPictureSide || file.height > kMaxRigPictureSide)
-        return failure(Fault::kBadData, "%s: image_width, image_height, camera_matrix, distortion_coefficients, rectification_matrix "
-                       "or projection_matrix is missing or senseless: export the camera again", shown_path(path.c_str()));
+    if (!file.camera.intrinsic || !file.camera.distortion || !file.camera.rectifying || !file.camera.projection ||
+        file.width < 1 || file.height < 1 || file.width > kMaxRigPictureSide || file.height > kMaxRigPictureSide)
+        return failure(Fault::kBadData,
+                       "%s: image_width, image_height, camera_matrix, distortion_coefficients, rectification_matrix "
+                       "or projection_matrix is missing or senseless: export the camera again",
+                       shown_path(path.c_str()));
     for (auto& row : *file.camera.projection)
         row[3] *= kMmPerMetre;
     return file;
@@ -130,11 +135,14 @@ Status write_ros_files(const RigFile& rig, const std::string& folder, const char
 {
     for (const RigCamera* camera : {&rig.left, &rig.right}) {
         if (!camera->intrinsic || !camera->rectifying || !camera->projection)
-            return failure(Fault::kBadData, "%s: K, R1, R2, P1 or P2 is missing, which camera_info needs: give a rig file with K1, K2, "
-                           "R and T", shown_path(name));
+            return failure(Fault::kBadData,
+                           "%s: K, R1, R2, P1 or P2 is missing, which camera_info needs: give a rig file with K1, K2, "
+                           "R and T",
+                           shown_path(name));
         for (std::size_t i = 8; camera->distortion && i < camera->distortion->at.size(); ++i)
             if (camera->distortion->at[i] != 0)
-                return failure(Fault::kBadData, "%s: camera_info holds 8 distortion coefficients at most: calibrate with fewer",
+                return failure(Fault::kBadData,
+                               "%s: camera_info holds 8 distortion coefficients at most: calibrate with fewer",
                                shown_path(name));
     }
     OutputFile left, right;
@@ -153,22 +161,27 @@ Result<RigFile> read_ros_files(const std::string& folder)
         CameraFile left = TRY(read_camera(folder + "/left.yaml"));
         CameraFile right = TRY(read_camera(folder + "/right.yaml"));
         if (left.width != right.width || left.height != right.height)
-            return failure(Fault::kBadData, "%s: left.yaml is for %d x %d px and right.yaml for %d x %d: export both from one calibration",
-                           shown_path(folder.c_str()), left.width, left.height, right.width, right.height);
+            return failure(
+                Fault::kBadData,
+                "%s: left.yaml is for %d x %d px and right.yaml for %d x %d: export both from one calibration",
+                shown_path(folder.c_str()), left.width, left.height, right.width, right.height);
         const double focal = (*right.camera.projection)[0][0];
         if (!(focal > 0))
-            return failure(Fault::kBadData, "%s: right.yaml has a senseless focal length in projection_matrix: export it again",
+            return failure(Fault::kBadData,
+                           "%s: right.yaml has a senseless focal length in projection_matrix: export it again",
                            shown_path(folder.c_str()));
         RigFile rig;
         rig.width = left.width;
         rig.height = left.height;
         rig.rotation = back_turned(*right.camera.rectifying, *left.camera.rectifying);
-        const Matrix<3, 1> shift = back_turned(*right.camera.rectifying,
-                                               Matrix<3, 1>{{{(*right.camera.projection)[0][3] / focal}, {0}, {0}}});
+        const Matrix<3, 1> shift =
+            back_turned(*right.camera.rectifying, Matrix<3, 1>{{{(*right.camera.projection)[0][3] / focal}, {0}, {0}}});
         rig.translation_mm = {shift[0][0], shift[1][0], shift[2][0]};
         if (!(shift[0][0] < 0))
-            return failure(Fault::kBadData, "%s: P[0,3] of right.yaml must be negative: left.yaml and right.yaml are swapped, or of one "
-                           "camera alone", shown_path(folder.c_str()));
+            return failure(Fault::kBadData,
+                           "%s: P[0,3] of right.yaml must be negative: left.yaml and right.yaml are swapped, or of one "
+                           "camera alone",
+                           shown_path(folder.c_str()));
         rig.left = left.camera;
         rig.right = right.camera;
         return rig;

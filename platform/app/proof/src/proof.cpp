@@ -10,7 +10,7 @@ namespace dicot::proof {
 namespace {
 
 constexpr std::array kProofs = {&kSupportWeightsProof, &kMatchCostProof, &kAggregateProof, &kNormaliseProof,
-                                 &kRemapProof};
+                                &kRemapProof};
 
 Verdict& begin_verdict(Report& report, const Kernels& kernels, const KernelProof& proof)
 {

@@ -27,7 +27,10 @@ struct Call
     }
 };
 
-constexpr std::int32_t px(double value) { return static_cast<std::int32_t>(value * (1 << kRemapFraction)); }
+constexpr std::int32_t px(double value)
+{
+    return static_cast<std::int32_t>(value * (1 << kRemapFraction));
+}
 
 void work(const Kernels& tested, Stand& stand, Verdict& verdict)
 {
@@ -43,7 +46,7 @@ void work(const Kernels& tested, Stand& stand, Verdict& verdict)
         {1, 0, 100},
         {2, 0, 200},
         {0, 1, 255},
-        {2, 1, 1},               // the last pixel, whole
+        {2, 1, 1}, // the last pixel, whole
         {0.5, 0, 50},
         {1.5, 1, 26},
         {0, 0.5, 128},           // 127.5 is rounded up
@@ -75,8 +78,8 @@ void work(const Kernels& tested, Stand& stand, Verdict& verdict)
             const int red = call.out.tested[3 * i];
             const int blue = call.out.tested[3 * i + 2];
             if (red != std::max(vector.red, 0) || blue != (vector.red < 0 ? 0 : 7))
-                note_fault(verdict, "worked vector %d: red at (%g, %g) is %d and blue %d, right is %d", verdict.worked, vector.x,
-                           vector.y, red, blue, vector.red);
+                note_fault(verdict, "worked vector %d: red at (%g, %g) is %d and blue %d, right is %d", verdict.worked,
+                           vector.x, vector.y, red, blue, vector.red);
         }
         ++verdict.worked;
     }
@@ -142,8 +145,8 @@ void compare(const Kernels& tested, Stand& stand, Dice& dice, Verdict& verdict)
         const char* words = stand.difference([&](int) { call.run(kScalarKernels, call.out.law); },
                                              [&](int) { call.run(tested, call.out.tested); });
         if (words[0] != 0)
-            note_fault(verdict, "%d pixels from %d x %d, path %d, pixels %s, %s: %s", n, width, height, static_cast<int>(path),
-                       word_for(filling), word_for(placement), words);
+            note_fault(verdict, "%d pixels from %d x %d, path %d, pixels %s, %s: %s", n, width, height,
+                       static_cast<int>(path), word_for(filling), word_for(placement), words);
         ++verdict.compared;
     };
     for (const Placement placement : kPlacements)
@@ -170,6 +173,7 @@ double time(const Kernels& tested, Stand& stand)
 } // namespace
 
 const KernelProof kRemapProof = {
-    "remap_row", "pixels", [](const Kernels& a, const Kernels& b) { return a.remap_row == b.remap_row; }, work, compare, time};
+    "remap_row", "pixels", [](const Kernels& a, const Kernels& b) { return a.remap_row == b.remap_row; },
+    work,        compare,  time};
 
 } // namespace dicot::proof

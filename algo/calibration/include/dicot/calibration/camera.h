@@ -7,8 +7,8 @@
 
 namespace dicot::calibration {
 
-/// Where the two directions meet, in the left camera's frame: the middle of their shortest connection; nothing when they
-/// are parallel.
+/// Where the two directions meet, in the left camera's frame: the middle of their shortest connection; nothing when
+/// they are parallel.
 std::optional<Point3> triangulate(const StereoRig& rig, Point2 left_direction, Point2 right_direction);
 
 /// The distance in px between a corner and the epipolar line of its partner, taken half each in both pictures after

@@ -34,16 +34,21 @@ struct Coverage
     double share = 0; ///< of the cells, those with at least one corner
 };
 
-enum class Verdict { kGood, kUsable, kRedo };
+enum class Verdict
+{
+    kGood,
+    kUsable,
+    kRedo
+};
 const char* name_of(Verdict verdict);
 
 struct Quality
 {
-    /// Pairs that a solution without them triangulates (at most kFolds solutions): distance of the corners from the true
-    /// board after the best rigid fit; root mean square.
+    /// Pairs that a solution without them triangulates (at most kFolds solutions): distance of the corners from the
+    /// true board after the best rigid fit; root mean square.
     double held_out_mm = 0;
-    /// The same pairs: how much larger or smaller the board comes out, times its distance; root mean square. What a wrong
-    /// angle between the cameras does to depth shows here.
+    /// The same pairs: how much larger or smaller the board comes out, times its distance; root mean square. What a
+    /// wrong angle between the cameras does to depth shows here.
     double held_out_depth_mm = 0;
     double held_out_size_percent = 0;
     int held_out_pairs = 0;
@@ -55,7 +60,7 @@ struct Quality
 
     Coverage left;
     Coverage right;
-    double nearest_mm = 0;  ///< used corners, distance along the left camera's axis
+    double nearest_mm = 0; ///< used corners, distance along the left camera's axis
     double farthest_mm = 0;
     std::array<int, kDistanceBins> boards_by_distance{}; ///< near, middle and far third of the working range
 

@@ -10,8 +10,8 @@
 
 namespace dicot::calibration {
 
-/// One pose of a board as the two cameras saw it. A camera that did not see it has no corners; such a view helps the other
-/// camera's lens.
+/// One pose of a board as the two cameras saw it. A camera that did not see it has no corners; such a view helps the
+/// other camera's lens.
 struct View
 {
     int board = 0; ///< index into the boards of the task
@@ -33,8 +33,8 @@ struct CalibrationTask
 struct ViewOutcome
 {
     bool used = false;
-    std::string reason;    ///< why it was dropped
-    Turn turn{};           ///< x_left = turn x_board + shift_mm; the board's origin is its middle
+    std::string reason; ///< why it was dropped
+    Turn turn{};        ///< x_left = turn x_board + shift_mm; the board's origin is its middle
     Point3 shift_mm;
     double rms_left_px = 0;
     double rms_right_px = 0;
@@ -49,10 +49,10 @@ struct StereoCalibration
     StereoRig rig;
     std::vector<ViewOutcome> views;
     int pairs_used = 0;
-    double rms_left_px = 0;   ///< root of the mean squared distance between seen and predicted corners
+    double rms_left_px = 0; ///< root of the mean squared distance between seen and predicted corners
     double rms_right_px = 0;
-    double rms_px = 0;        ///< over both
-    double sigma_px = 0;      ///< estimated standard deviation of a corner's coordinate
+    double rms_px = 0;               ///< over both
+    double sigma_px = 0;             ///< estimated standard deviation of a corner's coordinate
     std::array<double, 2> warp_mm{}; ///< depth of the bow along columns and rows
     /// Row after row. Rows of numbers that were not fitted are zero.
     std::array<double, kRigNumbers * kRigNumbers> covariance{};
@@ -62,14 +62,15 @@ struct StereoCalibration
 
 /// Fits both lenses and the rig to all views.
 ///
-/// Zhang's closed form for each camera (Zhang 2000), Levenberg-Marquardt over everything at once with a robust loss; views
-/// that do not fit are dropped and named. kBadData, with advice, for sets that cannot give a calibration: fewer than
-/// kMinPairs pairs, all views alike, one camera only, left and right swapped, corners outside the pictures.
+/// Zhang's closed form for each camera (Zhang 2000), Levenberg-Marquardt over everything at once with a robust loss;
+/// views that do not fit are dropped and named. kBadData, with advice, for sets that cannot give a calibration: fewer
+/// than kMinPairs pairs, all views alike, one camera only, left and right swapped, corners outside the pictures.
 Result<StereoCalibration> solve_stereo(const CalibrationTask& task);
 
 constexpr int kMinPairs = 4;
 
 /// As solve_stereo, from a former result and over the views marked `chosen` only; nothing is dropped or refused.
-StereoCalibration solve_again(const CalibrationTask& task, const StereoCalibration& start, std::span<const bool> chosen);
+StereoCalibration solve_again(const CalibrationTask& task, const StereoCalibration& start,
+                              std::span<const bool> chosen);
 
 } // namespace dicot::calibration

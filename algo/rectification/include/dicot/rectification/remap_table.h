@@ -14,10 +14,10 @@
 namespace dicot {
 
 /// The corners of square cells of 8 (or, where the lens bends too much, 4) pixels hold source positions with
-/// kCornerFraction fraction bits; within a cell the position is bilinear in exact integers (kRemapFraction bits), rounded
-/// once to kRemapWeightBits bits for interpolation. A table exists only when the position so rounded is within
-/// kMostErrorPx of the double map, in x and in y, at every pixel whose source lies in the picture, and no other pixel has
-/// a source. Two cameras of 1280 x 720 take 0.24 MB with cells of 8.
+/// kCornerFraction fraction bits; within a cell the position is bilinear in exact integers (kRemapFraction bits),
+/// rounded once to kRemapWeightBits bits for interpolation. A table exists only when the position so rounded is within
+/// kMostErrorPx of the double map, in x and in y, at every pixel whose source lies in the picture, and no other pixel
+/// has a source. Two cameras of 1280 x 720 take 0.24 MB with cells of 8.
 class RemapTable
 {
 public:
