@@ -94,7 +94,9 @@ TEST(CornerTerm, DerivativesAgreeWithDifferences)
     std::fill(bundle.fitted.begin(), bundle.fitted.end(), true);
 
     for (const bool right : {false, true})
-        for (const auto& [col, row] : {std::pair{0, 0}, std::pair{8, 2}, std::pair{4, 6}}) {
+        for (const auto& corner : {std::pair{0, 0}, std::pair{8, 2}, std::pair{4, 6}}) {
+            const int col = corner.first;
+            const int row = corner.second;
             const Term term = corner_term(bundle, view, right, col, row, {600, 300});
             ASSERT_TRUE(term.in_front);
             const auto check = [&](double analytic_x, double analytic_y, double step, const auto& moved) {

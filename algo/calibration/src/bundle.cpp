@@ -36,21 +36,10 @@ struct Weighed
 Weighed weigh(Loss loss, double scale, double squared)
 {
     const double s2 = scale * scale;
-    switch (loss) {
-    case Loss::kHuber: {
-        if (squared <= s2)
-            return {squared, 1};
-        const double size = std::sqrt(squared);
-        return {2 * scale * size - s2, scale / size};
-    }
-    case Loss::kGemanMcClure: {
-        const double fall = 1 / (1 + squared / s2);
-        return {squared * fall, fall * fall};
-    }
-    case Loss::kSquare:
-        break;
-    }
-    return {squared, 1};
+    if (loss == Loss::kSquare || squared <= s2)
+        return {squared, 1};
+    const double size = std::sqrt(squared);
+    return {2 * scale * size - s2, scale / size};
 }
 
 template <typename Visit>

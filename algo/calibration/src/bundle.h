@@ -30,12 +30,10 @@ struct BundleView
     bool used = true;
 };
 
-/// The last one forgets what is far off (Geman and McClure 1985); it needs a good start.
 enum class Loss
 {
     kSquare,
-    kHuber,
-    kGemanMcClure
+    kHuber
 };
 
 struct Bundle
