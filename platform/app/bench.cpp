@@ -34,7 +34,10 @@ struct MatchRun
     MatchTimes times;
 };
 
-std::uint64_t now_ns() { return static_cast<std::uint64_t>(monotonic_us()) * 1000; }
+std::uint64_t now_ns()
+{
+    return static_cast<std::uint64_t>(monotonic_us()) * 1000;
+}
 
 /// Noise with a known shift between the pictures: what the pixels say does not change how long matching takes.
 void draw(ImageView<Rgb8> left, ImageView<Rgb8> right)
@@ -55,8 +58,7 @@ void draw(ImageView<Rgb8> left, ImageView<Rgb8> right)
 /// The best of `rounds` runs.
 Result<MatchRun> time_match(const Words& words, const Kernels& kernels, int threads)
 {
-    MatchBench bench =
-        TRY(MatchBench::make(words.width, words.height, words.match.resolved(), kernels, threads));
+    MatchBench bench = TRY(MatchBench::make(words.width, words.height, words.match.resolved(), kernels, threads));
     draw(bench.left, bench.right);
     ThreadCrew crew(threads);
     TRY(crew.started());
@@ -78,9 +80,9 @@ Result<MatchRun> time_match(const Words& words, const Kernels& kernels, int thre
 nlohmann::json stages(const MatchTimes& times)
 {
     const auto seconds = [](std::uint64_t ns) { return static_cast<double>(ns) * 1e-9; };
-    return {{"prepare_s", seconds(times.prepare)},     {"cost_s", seconds(times.cost)},
-            {"weights_s", seconds(times.weights)},     {"aggregate_s", seconds(times.aggregate)},
-            {"select_s", seconds(times.select)},       {"refine_s", seconds(times.refine)}};
+    return {{"prepare_s", seconds(times.prepare)}, {"cost_s", seconds(times.cost)},
+            {"weights_s", seconds(times.weights)}, {"aggregate_s", seconds(times.aggregate)},
+            {"select_s", seconds(times.select)},   {"refine_s", seconds(times.refine)}};
 }
 
 Status run(const Words& words)
@@ -109,8 +111,10 @@ Status run(const Words& words)
                              {"aggregate_over_float_loop", kernel / float_loop},
                              {"one_thread_over_float_loop", one.terms_per_cpu_s / float_loop},
                              {"two_threads_over_one", one.seconds / two.seconds}};
-    report["one_thread"].update({{"match_s", one.seconds}, {"cpu_s", one.cpu_seconds}, {"terms_per_cpu_s", one.terms_per_cpu_s}});
-    report["two_threads"].update({{"match_s", two.seconds}, {"cpu_s", two.cpu_seconds}, {"terms_per_cpu_s", two.terms_per_cpu_s}});
+    report["one_thread"].update(
+        {{"match_s", one.seconds}, {"cpu_s", one.cpu_seconds}, {"terms_per_cpu_s", one.terms_per_cpu_s}});
+    report["two_threads"].update(
+        {{"match_s", two.seconds}, {"cpu_s", two.cpu_seconds}, {"terms_per_cpu_s", two.terms_per_cpu_s}});
     if (peak > 0)
         report["aggregate_share_of_peak"] = kernel / clock_hz / peak;
     if (words.json) {
@@ -129,12 +133,13 @@ Status run(const Words& words)
         std::printf(", %.0f %% of what the core could", 100 * kernel / clock_hz / peak);
     std::printf("\n");
     const auto line = [&](const char* name, const MatchRun& run) {
-        std::printf("%-12s %6.2f s, %.2f s of processor, %8.2e terms/s of processor (prepare %.2f, cost %.2f, weights %.2f, aggregate %.2f, select %.2f, "
+        std::printf("%-12s %6.2f s, %.2f s of processor, %8.2e terms/s of processor (prepare %.2f, cost %.2f, weights "
+                    "%.2f, aggregate %.2f, select %.2f, "
                     "refine %.2f s)\n",
-                    name, run.seconds, run.cpu_seconds, run.terms_per_cpu_s, static_cast<double>(run.times.prepare) * 1e-9,
-                    static_cast<double>(run.times.cost) * 1e-9, static_cast<double>(run.times.weights) * 1e-9,
-                    static_cast<double>(run.times.aggregate) * 1e-9, static_cast<double>(run.times.select) * 1e-9,
-                    static_cast<double>(run.times.refine) * 1e-9);
+                    name, run.seconds, run.cpu_seconds, run.terms_per_cpu_s,
+                    static_cast<double>(run.times.prepare) * 1e-9, static_cast<double>(run.times.cost) * 1e-9,
+                    static_cast<double>(run.times.weights) * 1e-9, static_cast<double>(run.times.aggregate) * 1e-9,
+                    static_cast<double>(run.times.select) * 1e-9, static_cast<double>(run.times.refine) * 1e-9);
     };
     line("one thread", one);
     line("two threads", two);

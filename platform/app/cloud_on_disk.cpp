@@ -11,7 +11,8 @@ Result<CloudOnDisk> CloudOnDisk::read(const char* path)
     InputFile file;
     TRY(file.open(path));
     if (file.size_bytes() > kMaxCloudFileBytes)
-        return failure(Fault::kBadData, "%s: larger than any cloud file (%zu MiB): give a file that 'dicot process' wrote",
+        return failure(Fault::kBadData,
+                       "%s: larger than any cloud file (%zu MiB): give a file that 'dicot process' wrote",
                        shown_path(path), kMaxCloudFileBytes >> 20);
     const MemoryBlock packed = TRY(MemoryBlock::map(static_cast<std::size_t>(file.size_bytes())));
     const auto bytes = packed.bytes().first(TRY(file.read(packed.bytes())));

@@ -18,11 +18,12 @@ namespace {
 
 constexpr double kOurPngScale = 256; // of the 16-bit PNG that match writes
 
-constexpr const char* kAbout =
-    "A pixel is judged when its truth is known and the mask counts "
-    "it. bad-N is the share of judged pixels that are off by more than N px; a pixel without a disparity counts as bad, "
-    "and is left out of the mean and RMS errors; density is the share that has one. A truth that is k times as large as "
-    "the map is taken at the centres of the map's pixels and divided by k.";
+constexpr const char* kAbout = "A pixel is judged when its truth is known and the mask counts "
+                               "it. bad-N is the share of judged pixels that are off by more than N px; a pixel "
+                               "without a disparity counts as bad, "
+                               "and is left out of the mean and RMS errors; density is the share that has one. A truth "
+                               "that is k times as large as "
+                               "the map is taken at the centres of the map's pixels and divided by k.";
 
 struct Words
 {
@@ -49,7 +50,8 @@ Status check_multiple(const std::string& path, const PictureSize& size, const st
 {
     if (multiple_of(map.width, map.height, size.width, size.height) != 0)
         return {};
-    return failure(Fault::kBadData, "%s is %d x %d px, which is no whole multiple of the %d x %d of %s: give those of one pair",
+    return failure(Fault::kBadData,
+                   "%s is %d x %d px, which is no whole multiple of the %d x %d of %s: give those of one pair",
                    path.c_str(), size.width, size.height, map.width, map.height, map_path.c_str());
 }
 
@@ -115,7 +117,8 @@ Status run(const Words& words)
     const Inputs inputs = TRY(read_inputs(words));
     const MapJudgement found = judge_map(inputs.map, inputs.truth, inputs.mask);
     if (found.judged == 0)
-        return failure(Fault::kBadData, "%s: no pixel can be judged: the truth is unknown, or the mask black, everywhere",
+        return failure(Fault::kBadData,
+                       "%s: no pixel can be judged: the truth is unknown, or the mask black, everywhere",
                        words.truth.c_str());
     if (words.json)
         print_json(words, found);
@@ -131,8 +134,10 @@ void add_evaluate(CLI::App& program, Command& chosen)
     CLI::App* command = program.add_subcommand("evaluate", "Error rates of a disparity map against ground truth");
     command->footer(kAbout);
     auto words = std::make_shared<Words>();
-    command->add_option("DISPARITY", words->map, "disparity map: .pfm, or 16-bit .png (px x 256, 0 = missing)")->required();
-    command->add_option("TRUTH", words->truth, "ground truth: grey PNG of 8 or 16 bits (0 = unknown), or PFM")->required();
+    command->add_option("DISPARITY", words->map, "disparity map: .pfm, or 16-bit .png (px x 256, 0 = missing)")
+        ->required();
+    command->add_option("TRUTH", words->truth, "ground truth: grey PNG of 8 or 16 bits (0 = unknown), or PFM")
+        ->required();
     command->add_option("--mask", words->mask, "picture that is white (255) where a pixel counts");
     command->add_option("--scale", words->scale, "what a PNG's ground truth is divided by")
         ->check(CLI::Range(1e-3, 1e5))

@@ -38,15 +38,17 @@ Result<Kind> kind_of(const char* path)
     const std::string_view text{reinterpret_cast<const char*>(start.data()), size};
     if (text.starts_with("DRACO"))
         return Kind::kCloud;
-    if (text.starts_with("\x89PNG") || text.starts_with("\xFF\xD8")
-        || (size > 2 && text[0] == 'P' && text[1] >= '1' && text[1] <= '6' && static_cast<unsigned char>(text[2]) <= ' '))
+    if (text.starts_with("\x89PNG") || text.starts_with("\xFF\xD8") ||
+        (size > 2 && text[0] == 'P' && text[1] >= '1' && text[1] <= '6' && static_cast<unsigned char>(text[2]) <= ' '))
         return Kind::kPicture;
     const bool readable = std::none_of(text.begin(), text.end(), [](unsigned char c) { // char has no sign on ARM
         return c < ' ' && c != '\n' && c != '\r' && c != '\t';
     });
     if (size == 0 || !readable)
-        return failure(Fault::kBadData, "%s: neither a cloud (.drc), nor a picture (PNG, JPEG, PPM), nor a rig file (YAML): give "
-                       "one of these", shown_path(path));
+        return failure(Fault::kBadData,
+                       "%s: neither a cloud (.drc), nor a picture (PNG, JPEG, PPM), nor a rig file (YAML): give "
+                       "one of these",
+                       shown_path(path));
     return Kind::kRig;
 }
 

@@ -4,8 +4,9 @@
 
 namespace {
 
-constexpr const char* kFooter = "Exit codes follow sysexits(3): 0 done, 64 usage, 65 bad data, 66 no input, 69 unavailable, "
-                                "70 fault of dicot, 71 system refused,\n73 cannot create, 74 I/O error, 75 try again, 78 configuration.";
+constexpr const char* kFooter =
+    "Exit codes follow sysexits(3): 0 done, 64 usage, 65 bad data, 66 no input, 69 unavailable, "
+    "70 fault of dicot, 71 system refused,\n73 cannot create, 74 I/O error, 75 try again, 78 configuration.";
 
 } // namespace
 
@@ -21,6 +22,8 @@ int main(int argc, char** argv)
     app::add_bench(program, chosen);
     app::add_match(program, chosen);
     app::add_process(program, chosen);
+    app::add_rectify(program, chosen);
+    app::add_rig(program, chosen);
     app::add_export(program, chosen);
     app::add_info(program, chosen);
     app::add_evaluate(program, chosen);

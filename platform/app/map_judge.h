@@ -15,8 +15,8 @@ inline constexpr std::array<double, 4> kBadThresholdsPx = {0.5, 1, 2, 4};
 /// What a map reaches over the judged pixels. Shares are 0 .. 1; errors are in px of the map.
 struct MapJudgement
 {
-    std::int64_t judged = 0; ///< pixels whose truth is known and which the mask counts
-    std::int64_t valued = 0; ///< of these, pixels with a disparity
+    std::int64_t judged = 0;                                 ///< pixels whose truth is known and which the mask counts
+    std::int64_t valued = 0;                                 ///< of these, pixels with a disparity
     std::array<std::int64_t, kBadThresholdsPx.size()> bad{}; ///< off by more than the threshold, or without a disparity
     double mean_error_px = 0; ///< mean absolute error where there is a disparity; 0 when there is none
     double rms_error_px = 0;  ///< root mean square error, likewise
@@ -25,11 +25,17 @@ struct MapJudgement
     double bad_share(std::size_t threshold) const { return share(bad[threshold]); }
 
 private:
-    double share(std::int64_t part) const { return judged == 0 ? 0 : static_cast<double>(part) / static_cast<double>(judged); }
+    double share(std::int64_t part) const
+    {
+        return judged == 0 ? 0 : static_cast<double>(part) / static_cast<double>(judged);
+    }
 };
 
 /// The pixel of a picture k times as large that lies on the centre of pixel `at`; for even k, the last one before it.
-constexpr int centre_of(int at, int k) { return at * k + (k - 1) / 2; }
+constexpr int centre_of(int at, int k)
+{
+    return at * k + (k - 1) / 2;
+}
 
 /// How many times larger `large` is than `small`, in both directions alike; 0 when it is no whole multiple.
 int multiple_of(int small_width, int small_height, int large_width, int large_height);

@@ -43,9 +43,9 @@ Result<MapFormat> format_of(const std::string& path, const MatchOptions& options
         return MapFormat::kPfm;
     if (!ends_with(".png"))
         return failure(Fault::kUsage, "%s: the name must end in .pfm or .png", path.c_str());
-    if (options.min_disparity < 0 ||
-        (options.min_disparity + options.disparities) * kPngScale > kPngLargest)
-        return failure(Fault::kUsage, "%s: a 16-bit PNG holds disparities from 0 to 255 px: write a .pfm", path.c_str());
+    if (options.min_disparity < 0 || (options.min_disparity + options.disparities) * kPngScale > kPngLargest)
+        return failure(Fault::kUsage, "%s: a 16-bit PNG holds disparities from 0 to 255 px: write a .pfm",
+                       path.c_str());
     return MapFormat::kPng16;
 }
 
@@ -64,8 +64,8 @@ Status write_map(const std::string& path, MapFormat format, const DisparityMap& 
         for (int x = 0; x < scratch.width; ++x) {
             // 0 means missing, so a disparity of exactly 0 becomes the least value there is.
             const int d = map.relative.row(y)[x];
-            scratch.row(y)[x] = static_cast<std::uint16_t>(
-                d == kDispMissing ? 0 : std::max(map.min_disparity * kPngScale + d, 1));
+            scratch.row(y)[x] =
+                static_cast<std::uint16_t>(d == kDispMissing ? 0 : std::max(map.min_disparity * kPngScale + d, 1));
         }
     }
     return write_png16(path.c_str(), scratch);
@@ -157,7 +157,8 @@ void add_match(CLI::App& program, Command& chosen)
         ->capture_default_str();
     command->add_option("--min-disparity", words->match.options.min_disparity, "start of the search range, px")
         ->capture_default_str();
-    command->add_flag("--dense", words->match.options.dense, "give every pixel a value, if need be from its neighbours");
+    command->add_flag("--dense", words->match.options.dense,
+                      "give every pixel a value, if need be from its neighbours");
     words->match.add_to(*command);
     command->add_flag("--json", words->json, "report as JSON");
     command->callback([words, &chosen] { chosen = [words] { return run(*words); }; });

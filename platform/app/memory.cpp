@@ -37,23 +37,24 @@ Status run(const Words& words)
     const std::size_t total = program + budget.total();
     if (words.json) {
         nlohmann::json report = {{"width", words.width},
-                                       {"height", words.height},
-                                       {"disparities", words.match.options.disparities},
-                                       {"threads", threads},
-                                       {"program_bytes", program},
-                                       {"pictures_bytes", budget.pictures},
-                                       {"matcher_bytes", budget.matcher},
-                                       {"output_bytes", budget.output},
-                                       {"total_bytes", total}};
-        report["process_total_bytes"] = process.ok() ? nlohmann::json(program + process.value().total()) : nlohmann::json();
+                                 {"height", words.height},
+                                 {"disparities", words.match.options.disparities},
+                                 {"threads", threads},
+                                 {"program_bytes", program},
+                                 {"pictures_bytes", budget.pictures},
+                                 {"matcher_bytes", budget.matcher},
+                                 {"output_bytes", budget.output},
+                                 {"total_bytes", total}};
+        report["process_total_bytes"] =
+            process.ok() ? nlohmann::json(program + process.value().total()) : nlohmann::json();
         std::printf("%s\n", report.dump(2).c_str());
         return {};
     }
     const auto line = [](const char* what, std::size_t bytes) {
         std::printf("%-36s %8.1f MiB\n", what, static_cast<double>(bytes) / (1 << 20));
     };
-    std::printf("%d x %d px, %d disparities, %d threads\n", words.width, words.height,
-                words.match.options.disparities, threads);
+    std::printf("%d x %d px, %d disparities, %d threads\n", words.width, words.height, words.match.options.disparities,
+                threads);
     line("program, libraries, stacks", program);
     line("pictures", budget.pictures);
     line("matcher: tables, planes, maps", budget.matcher);

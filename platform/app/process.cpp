@@ -1,8 +1,9 @@
-// dicot process: a rectified pair in, a compressed cloud out.
+// dicot process: a pair in, a compressed cloud out.
 #include "commands.h"
 #include "match_words.h"
 #include "process_bench.h"
 #include "progress.h"
+#include "rectify_rig.h"
 #include "sealed_heap.h"
 
 #include "dicot/cloud/disparity_picture.h"
@@ -25,6 +26,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 
 namespace dicot::app {
 namespace {
@@ -41,6 +43,7 @@ struct Words
 struct Plan
 {
     RigGeometry rig;
+    std::optional<RectifyTables> tables; ///< when the pictures come from the cameras as they are
     WorkingRange range;
     Triangulation triangulation;
     MatchOptions match;
@@ -60,7 +63,7 @@ struct Findings
 
 struct StageTimes
 {
-    double read_s = 0, match_s = 0, triangulate_s = 0, encode_s = 0, write_s = 0, pictures_s = 0;
+    double read_s = 0, rectify_s = 0, match_s = 0, triangulate_s = 0, encode_s = 0, write_s = 0, pictures_s = 0;
 };
 
 /// Seconds since it was asked last.
@@ -97,11 +100,12 @@ Status check_outputs(const Words& words)
     return check_output(words.disparity, ".png");
 }
 
-Status check_size(const std::string& picture, const std::string& rig_path, const RigGeometry& rig)
+Status check_size(const std::string& picture, const std::string& rig_path, const RigFile& rig)
 {
     const PictureSize size = TRY(picture_size(picture.c_str()));
     if (size.width != rig.width || size.height != rig.height)
-        return failure(Fault::kBadData, "%s is %d x %d px, and %s is for %d x %d: use the rig file of these cameras and this size",
+        return failure(Fault::kBadData,
+                       "%s is %d x %d px, and %s is for %d x %d: use the rig file of these cameras and this size",
                        picture.c_str(), size.width, size.height, rig_path.c_str(), rig.width, rig.height);
     return {};
 }
@@ -111,7 +115,8 @@ Result<WorkingRange> range_of(const Words& words, const RigFile& rig)
     const std::optional<double> near_mm = words.near_mm ? words.near_mm : rig.near_mm;
     const std::optional<double> far_mm = words.far_mm ? words.far_mm : rig.far_mm;
     if (!near_mm || !far_mm)
-        return failure(Fault::kUsage, "%s names no working range: give --near-mm and --far-mm, or add near_mm and far_mm to it",
+        return failure(Fault::kUsage,
+                       "%s names no working range: give --near-mm and --far-mm, or add near_mm and far_mm to it",
                        words.rig.c_str());
     return WorkingRange{*near_mm, *far_mm};
 }
@@ -121,10 +126,12 @@ Result<Plan> make_plan(const Words& words)
     Plan plan;
     plan.kernels = TRY(choose_kernels(words.match.cpu));
     plan.threads = words.match.resolved_threads();
-    const RigFile rig = TRY(read_rig_file(words.rig.c_str()));
+    RigFile rig = TRY(read_rig_file(words.rig.c_str()));
+    TRY(check_size(words.left, words.rig, rig));
+    TRY(check_size(words.right, words.rig, rig));
+    if (describes_cameras(rig))
+        plan.tables = TRY(RectifyTables::make(rig, kCrop, words.rig.c_str()));
     plan.rig = TRY(geometry_of(rig, words.rig.c_str()));
-    TRY(check_size(words.left, words.rig, plan.rig));
-    TRY(check_size(words.right, words.rig, plan.rig));
     plan.range = TRY(range_of(words, rig));
     const DisparityRange search = TRY(disparity_range(plan.rig, plan.range));
     const CloudGrid grid = TRY(grid_for(plan.rig, plan.range));
@@ -148,7 +155,8 @@ Status write_bytes(const std::string& path, std::span<const std::byte> bytes)
 }
 
 /// From the pictures to points; the disparity map is gone afterwards.
-Result<PointCloud> see(const Words& words, const Plan& plan, ProcessBench& bench, Crew& crew, Findings& findings, StageTimes& times)
+Result<PointCloud> see(const Words& words, const Plan& plan, ProcessBench& bench, Crew& crew, Findings& findings,
+                       StageTimes& times)
 {
     StopWatch watch;
     const int width = plan.rig.width;
@@ -158,9 +166,16 @@ Result<PointCloud> see(const Words& words, const Plan& plan, ProcessBench& bench
     const auto right = take_picture<Rgb8>(stage, width, height);
     const auto painted = take_picture<Rgb8>(stage, width, height);
     Matcher matcher = TRY(Matcher::make(width, height, plan.match, *plan.kernels, plan.threads, stage));
-    TRY(read_picture(words.left.c_str(), left));
-    TRY(read_picture(words.right.c_str(), right));
-    times.read_s = watch.lap_s();
+    // The decoded picture lies where the disparities are painted later.
+    for (const auto& [path, table, into] :
+         {std::tuple{&words.left, plan.tables ? &plan.tables->left() : nullptr, left},
+          std::tuple{&words.right, plan.tables ? &plan.tables->right() : nullptr, right}}) {
+        TRY(read_picture(path->c_str(), table != nullptr ? painted : into));
+        times.read_s += watch.lap_s();
+        if (table != nullptr)
+            remap(*table, *plan.kernels, painted, into, plan.tables->spans());
+        times.rectify_s += watch.lap_s();
+    }
 
     const DisparityMap map = [&] {
         Progress progress("matching");
@@ -180,11 +195,13 @@ Result<PointCloud> see(const Words& words, const Plan& plan, ProcessBench& bench
     return seen.cloud;
 }
 
-Status keep(const Words& words, const Plan& plan, const ProcessBench& bench, const PointCloud& cloud, Findings& findings, StageTimes& times)
+Status keep(const Words& words, const Plan& plan, const ProcessBench& bench, const PointCloud& cloud,
+            Findings& findings, StageTimes& times)
 {
     StopWatch watch;
     Arena stage = bench.next_stage();
-    const EncodedCloud encoded = TRY(encode_cloud(cloud, plan.meta, stage.take<std::byte>(encode_heap_bytes(cloud.points.size()))));
+    const EncodedCloud encoded =
+        TRY(encode_cloud(cloud, plan.meta, stage.take<std::byte>(encode_heap_bytes(cloud.points.size()))));
     findings.proof = encoded.proof;
     findings.cloud_bytes = encoded.bytes.size();
     findings.heap_peak_bytes = encoded.heap_peak_bytes;
@@ -214,7 +231,7 @@ nlohmann::json report_of(const Words& words, const Plan& plan, const ProcessBudg
                          const StageTimes& times, std::uint64_t peak_bytes)
 {
     const CloudGrid& grid = plan.triangulation.grid;
-    const auto metres = [&](const std::int32_t (&steps)[3]) {
+    const auto metres = [&](const std::int32_t(&steps)[3]) {
         const double step = grid.step_um * 1e-6;
         return nlohmann::json{steps[0] * step, steps[1] * step, steps[2] * step};
     };
@@ -245,33 +262,39 @@ nlohmann::json report_of(const Words& words, const Plan& plan, const ProcessBudg
               {"worst_error_um", found.proof.worst_error_um}}},
             {"stages_s",
              {{"read", times.read_s},
+              {"rectify", times.rectify_s},
               {"match", times.match_s},
               {"triangulate", times.triangulate_s},
               {"encode", times.encode_s},
               {"write", times.write_s},
               {"pictures", times.pictures_s}}},
-            {"reserved_memory_bytes", budget.total()},
+            {"rectified", plan.tables.has_value()},
+            {"reserved_memory_bytes", budget.total() + (plan.tables ? plan.tables->reserved_bytes() : 0)},
             {"compressor_peak_bytes", found.heap_peak_bytes},
             {"peak_memory_bytes", peak_bytes}};
 }
 
-void print(const Words& words, const Plan& plan, const Findings& found, const StageTimes& times, std::uint64_t peak_bytes)
+void print(const Words& words, const Plan& plan, const Findings& found, const StageTimes& times,
+           std::uint64_t peak_bytes)
 {
     constexpr double kMiB = 1 << 20;
     const PixelCount& pixels = found.pixels;
     std::printf("%s: %lld points, %.2f MiB, %.1f bits a point; decoded again, worst error %.2f um on a grid of %d um\n",
-                words.cloud.c_str(), static_cast<long long>(pixels.points), static_cast<double>(found.cloud_bytes) / kMiB,
-                8.0 * static_cast<double>(found.cloud_bytes) / static_cast<double>(pixels.points), found.proof.worst_error_um,
-                plan.triangulation.grid.step_um);
-    std::printf("searched %d disparities from %d px for %.0f to %.0f mm; of %d x %d pixels %lld had no match, %lld were nearer, "
+                words.cloud.c_str(), static_cast<long long>(pixels.points),
+                static_cast<double>(found.cloud_bytes) / kMiB,
+                8.0 * static_cast<double>(found.cloud_bytes) / static_cast<double>(pixels.points),
+                found.proof.worst_error_um, plan.triangulation.grid.step_um);
+    std::printf("searched %d disparities from %d px for %.0f to %.0f mm; of %d x %d pixels %lld had no match, %lld "
+                "were nearer, "
                 "%lld farther\n",
                 plan.match.disparities, plan.match.min_disparity, plan.range.near_mm, plan.range.far_mm, plan.rig.width,
                 plan.rig.height, static_cast<long long>(pixels.missing), static_cast<long long>(pixels.too_near),
                 static_cast<long long>(pixels.too_far + pixels.beyond));
-    std::printf("read %.3f s, match %.3f s (%s, %d threads), triangulate %.3f s, encode and verify %.3f s, write %.3f s, "
+    std::printf("read %.3f s, rectify %.3f s, match %.3f s (%s, %d threads), triangulate %.3f s, encode and verify "
+                "%.3f s, write %.3f s, "
                 "pictures %.3f s; peak memory %.1f MiB\n",
-                times.read_s, times.match_s, plan.kernels->name, plan.threads, times.triangulate_s, times.encode_s, times.write_s,
-                times.pictures_s, static_cast<double>(peak_bytes) / kMiB);
+                times.read_s, times.rectify_s, times.match_s, plan.kernels->name, plan.threads, times.triangulate_s,
+                times.encode_s, times.write_s, times.pictures_s, static_cast<double>(peak_bytes) / kMiB);
 }
 
 Status run(const Words& words)
@@ -301,9 +324,12 @@ Status run(const Words& words)
 
 void add_process(CLI::App& program, Command& chosen)
 {
-    CLI::App* command = program.add_subcommand("process", "Compressed 3D cloud of a rectified stereo pair");
+    CLI::App* command = program.add_subcommand("process", "Compressed 3D cloud of a stereo pair");
     auto words = std::make_shared<Words>();
-    command->add_option("LEFT", words->left, "left picture: PNG, JPEG or PPM, rectified")->required();
+    command
+        ->add_option("LEFT", words->left,
+                     "left picture: PNG, JPEG or PPM; rectified when the rig file has P1 and P2 only")
+        ->required();
     command->add_option("RIGHT", words->right, "right picture")->required();
     command->add_option("--rig", words->rig, "rig file of the two cameras (YAML)")->required();
     command->add_option("-o,--output", words->cloud, "cloud, .drc")->required();

@@ -29,8 +29,10 @@ Result<ProcessBudget> process_budget(int width, int height, const MatchOptions& 
 {
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     if (pixels > kMaxCloudPoints)
-        return failure(Fault::kConfig, "pictures of %d x %d px can give more points than a cloud file holds (%zu): scale them "
-                       "down, with their rig file", width, height, kMaxCloudPoints);
+        return failure(Fault::kConfig,
+                       "pictures of %d x %d px can give more points than a cloud file holds (%zu): scale them "
+                       "down, with their rig file",
+                       width, height, kMaxCloudPoints);
     ProcessBudget budget;
     Arena kept;
     (void)take_picture<Rgb8>(kept, width, height);
@@ -56,7 +58,8 @@ Result<ProcessBudget> process_budget(int width, int height, const MatchOptions& 
 }
 
 ProcessBench::ProcessBench(MemoryBlock block, const ProcessBudget& budget)
-    : kept(block.bytes().first(budget.kept)), block_(std::move(block)), stages_(block_.bytes().subspan(budget.kept)), budget_(budget)
+    : kept(block.bytes().first(budget.kept)), block_(std::move(block)), stages_(block_.bytes().subspan(budget.kept)),
+      budget_(budget)
 {
 }
 

@@ -21,8 +21,11 @@ std::vector<CloudPoint> smooth_points(std::size_t count)
         const auto wave = static_cast<std::int32_t>(i * 2654435761U >> 16 & 15U);
         const auto column = static_cast<std::int32_t>(i % 640);
         const auto row = static_cast<std::int32_t>(i / 640);
-        points[i] = {column * 4 + wave / 4, row * 4 + wave / 4, 8000 + column + wave,
-                     {static_cast<std::uint8_t>(80 + wave), static_cast<std::uint8_t>(140 - wave), 60}, static_cast<std::uint8_t>(200 + wave)};
+        points[i] = {column * 4 + wave / 4,
+                     row * 4 + wave / 4,
+                     8000 + column + wave,
+                     {static_cast<std::uint8_t>(80 + wave), static_cast<std::uint8_t>(140 - wave), 60},
+                     static_cast<std::uint8_t>(200 + wave)};
     }
     return points;
 }
@@ -64,7 +67,8 @@ TEST(CodecMemory, StaysWithinTheStatedHeapAndTouchesNoOther)
         Status decoded;
         if (encoded.ok()) {
             const Result<CloudOutline> outline = outline_of(encoded.value().bytes, "cloud.drc");
-            decoded = outline.ok() ? decode_cloud(encoded.value().bytes, outline.value(), "cloud.drc", decode_block.bytes(), back)
+            decoded = outline.ok() ? decode_cloud(encoded.value().bytes, outline.value(), "cloud.drc",
+                                                  decode_block.bytes(), back)
                                    : outline.status();
         }
         const std::uint64_t breaches = heap_gate::breaches();
@@ -92,7 +96,8 @@ TEST(CodecMemory, ASmallHeapIsARefusalNotACrash)
     const auto points = test::random_points(grid, 20000, 2);
     const MemoryBlock block = MemoryBlock::map(encode_heap_bytes(points.size())).value();
     const std::size_t file_bytes = encode_cloud({points, grid}, {}, block.bytes()).value().bytes.size();
-    const std::vector<std::byte> file(block.bytes().begin(), block.bytes().begin() + static_cast<std::ptrdiff_t>(file_bytes));
+    const std::vector<std::byte> file(block.bytes().begin(),
+                                      block.bytes().begin() + static_cast<std::ptrdiff_t>(file_bytes));
     const CloudOutline outline = outline_of(file, "cloud.drc").value();
     std::vector<CloudPoint> back(points.size());
     int refused = 0;

@@ -164,7 +164,8 @@ TEST(Codec, DracoSeesTheAttributesOfTheFormat)
     EXPECT_TRUE(cloud->GetNamedAttribute(draco::GeometryAttribute::COLOR)->normalized());
     const auto* named = cloud->metadata()->GetAttributeMetadataByStringEntry("name", "confidence");
     ASSERT_NE(named, nullptr);
-    EXPECT_EQ(cloud->attribute(cloud->GetAttributeIdByUniqueId(named->att_unique_id()))->attribute_type(), draco::GeometryAttribute::GENERIC);
+    EXPECT_EQ(cloud->attribute(cloud->GetAttributeIdByUniqueId(named->att_unique_id()))->attribute_type(),
+              draco::GeometryAttribute::GENERIC);
     const auto text = [&](const char* key) {
         std::string value;
         cloud->metadata()->GetEntryString(key, &value);
@@ -218,7 +219,8 @@ TEST(HostileCloud, FlippedBitsAreRefusedOrGiveACloudOnTheGrid)
         }
         const CloudGrid grid = outline_of(file, "cloud.drc").value().grid;
         for (const CloudPoint& point : back.value())
-            ASSERT_TRUE(point.x >= grid.origin[0] && point.x - grid.origin[0] < 1 << grid.bits) << "round " << round << " of seed 99";
+            ASSERT_TRUE(point.x >= grid.origin[0] && point.x - grid.origin[0] < 1 << grid.bits)
+                << "round " << round << " of seed 99";
     }
     EXPECT_GT(refused, 500);
 }
@@ -228,7 +230,8 @@ TEST(HostileCloud, AnAbsurdCountIsRefusedBeforeMemoryIsAsked)
     const std::vector<CloudPoint> points{{0, 0, 6000, {}, 0}};
     File file = encoded(points, grid_of(14));
     // The count stands in front of: one group of attributes, three of them, POSITION float32 x3.
-    const std::byte mark[] = {std::byte{1}, std::byte{0}, std::byte{0}, std::byte{0}, std::byte{1}, std::byte{3}, std::byte{0}, std::byte{9}};
+    const std::byte mark[] = {std::byte{1}, std::byte{0}, std::byte{0}, std::byte{0},
+                              std::byte{1}, std::byte{3}, std::byte{0}, std::byte{9}};
     const auto at = std::search(file.begin(), file.end(), std::begin(mark), std::end(mark));
     ASSERT_NE(at, file.end());
     at[3] = std::byte{0x7F};

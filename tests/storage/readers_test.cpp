@@ -39,7 +39,8 @@ struct Vertex
     float confidence;
 };
 
-void expect_same(const std::vector<Vertex>& read, const std::vector<CloudPoint>& points, double tolerance_m, bool has_confidence)
+void expect_same(const std::vector<Vertex>& read, const std::vector<CloudPoint>& points, double tolerance_m,
+                 bool has_confidence)
 {
     ASSERT_EQ(read.size(), points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -161,7 +162,8 @@ TEST(Export, HeadersSayUnitFrameAndSoftware)
         ASSERT_TRUE(export_cloud(path.c_str(), {points, kGrid}, some_meta()).ok());
         const test::Bytes file = test::bytes_of(path);
         const std::string text{file.begin(), file.end()};
-        for (const char* said : {"unit m\n", "frame rectified-left x-right y-down z-forward\n", "software dicot test\n", "sequence 9\n"})
+        for (const char* said :
+             {"unit m\n", "frame rectified-left x-right y-down z-forward\n", "software dicot test\n", "sequence 9\n"})
             EXPECT_NE(text.find(said), std::string::npos) << name << ": " << said;
     }
 }

@@ -22,8 +22,8 @@ Result<RigFile> parsed(const std::string& text)
 
 std::string matrix(const std::string& key, int rows, int cols, const std::string& data)
 {
-    return key + ": !!opencv-matrix\n   rows: " + std::to_string(rows) + "\n   cols: " + std::to_string(cols)
-           + "\n   dt: d\n   data: [ " + data + " ]\n";
+    return key + ": !!opencv-matrix\n   rows: " + std::to_string(rows) + "\n   cols: " + std::to_string(cols) +
+           "\n   dt: d\n   data: [ " + data + " ]\n";
 }
 
 const std::string kHead = "%YAML:1.0\n---\nimage_width: 640\nimage_height: 480\n";
@@ -46,8 +46,8 @@ TEST(RigFile, GeometryFollowsFromTheProjections)
 TEST(RigFile, MetresBecomeMillimetres)
 {
     const std::string q = matrix("Q", 4, 4, "1,0,0,-320, 0,1,0,-240, 0,0,0,500, 0,0,16.,4.");
-    const std::string text = kHead + "unit: m\n" + kP1 + matrix("P2", 3, 4, "500,0,320,-30, 0,500,240,0, 0,0,1,0")
-                             + matrix("T", 3, 1, "-0.06, 0.001, 0.") + q;
+    const std::string text = kHead + "unit: m\n" + kP1 + matrix("P2", 3, 4, "500,0,320,-30, 0,500,240,0, 0,0,1,0") +
+                             matrix("T", 3, 1, "-0.06, 0.001, 0.") + q;
     const RigFile rig = parsed(text).value();
     EXPECT_DOUBLE_EQ(geometry_of(rig, "rig.yaml").value().baseline_mm, 60);
     EXPECT_DOUBLE_EQ((*rig.translation_mm)[0], -60);
@@ -58,9 +58,10 @@ TEST(RigFile, MetresBecomeMillimetres)
 TEST(RigFile, SpellingsOfOpenCvsSamplesAreKnown)
 {
     const std::string k = "500,0,320, 0,501,240, 0,0,1";
-    const RigFile rig = parsed("%YAML:1.0\nimageSize: [ 640, 480 ]\n" + matrix("M1", 3, 3, k) + matrix("D1", 1, 5, "1,2,3,4,5")
-                               + matrix("M2", 3, 3, k) + matrix("D2", 8, 1, "1,2,3,4,5,6,7,8"))
-                            .value();
+    const RigFile rig =
+        parsed("%YAML:1.0\nimageSize: [ 640, 480 ]\n" + matrix("M1", 3, 3, k) + matrix("D1", 1, 5, "1,2,3,4,5") +
+               matrix("M2", 3, 3, k) + matrix("D2", 8, 1, "1,2,3,4,5,6,7,8"))
+            .value();
     EXPECT_EQ(rig.width, 640);
     EXPECT_EQ(rig.height, 480);
     EXPECT_EQ((*rig.left.intrinsic)[1][1], 501);
@@ -184,7 +185,8 @@ const Refusal kRefusals[] = {
     {"LowerCaseNan", with(matrix("R", 3, 3, "1,0,0, 0,nan,0, 0,0,1")), "R must be finite numbers"},
     {"Infinite", with(matrix("T", 3, 1, "-60, 0, 1e999")), "T must be finite numbers"},
     {"SixDistortions", with(matrix("D1", 1, 6, "1,2,3,4,5,6")), "D1 is a 1 x 6 matrix"},
-    {"IntegerMatrix", with("K1: !!opencv-matrix\n   rows: 1\n   cols: 1\n   dt: \"3u\"\n   data: [ 1 ]\n"), "dt d or f"},
+    {"IntegerMatrix", with("K1: !!opencv-matrix\n   rows: 1\n   cols: 1\n   dt: \"3u\"\n   data: [ 1 ]\n"),
+     "dt d or f"},
     {"ScalarForMatrix", with("K1: 7\n"), "K1 must be an !!opencv-matrix"},
     {"NestedData", with("K1: { rows: 1, cols: 1, dt: d, data: [[1]] }\n"), "K1 must be finite numbers"},
     {"Twice", with(kP1), "P1 must be there once only"},
@@ -200,7 +202,8 @@ const Refusal kRefusals[] = {
     {"LongId", with("id: \"" + std::string(65, 'x') + "\"\n"), "id must be one word"},
     {"StrangeId", with("id: \"a\\\"b\"\n"), "id must be one word"},
     {"SwappedCameras", kHead + kP1 + matrix("P2", 3, 4, "500,0,320,30000, 0,500,240,0, 0,0,1,0"), "swapped"},
-    {"CamerasAboveEachOther", kHead + kP1 + matrix("P2", 3, 4, "500,0,320,0, 0,500,240,-30000, 0,0,1,0"), "above each other"},
+    {"CamerasAboveEachOther", kHead + kP1 + matrix("P2", 3, 4, "500,0,320,0, 0,500,240,-30000, 0,0,1,0"),
+     "above each other"},
     {"MetresWithoutUnit", kHead + kP1 + matrix("P2", 3, 4, "500,0,320,-30, 0,500,240,0, 0,0,1,0"), "unit: m"},
     {"DifferentFocals", kHead + kP1 + matrix("P2", 3, 4, "510,0,320,-30000, 0,510,240,0, 0,0,1,0"), "focal lengths"},
     {"DifferentRows", kHead + kP1 + matrix("P2", 3, 4, "500,0,320,-30000, 0,500,250,0, 0,0,1,0"), "same row"},

@@ -28,7 +28,8 @@ inline std::vector<CloudPoint> random_points(const CloudGrid& grid, std::size_t 
         point.y = on_axis(1);
         point.z = on_axis(2);
         const std::uint32_t bits = static_cast<std::uint32_t>(random());
-        point.colour = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8), static_cast<std::uint8_t>(bits >> 16)};
+        point.colour = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8),
+                        static_cast<std::uint8_t>(bits >> 16)};
         point.confidence = static_cast<std::uint8_t>(bits >> 24);
     }
     return points;

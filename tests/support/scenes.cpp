@@ -50,7 +50,10 @@ std::vector<Scene> middlebury_v2()
             scene("middlebury-v2", "teddy", 60, 4), scene("middlebury-v2", "cones", 60, 4)};
 }
 
-Scene aloe_third() { return scene("plants", "aloe-third", 80, 3); }
+Scene aloe_third()
+{
+    return scene("plants", "aloe-third", 80, 3);
+}
 
 Picture read(const std::string& path)
 {

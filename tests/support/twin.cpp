@@ -7,11 +7,20 @@
 namespace dicot::twin {
 namespace {
 
-double linear(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
+double linear(double c)
+{
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
 
-double f(double t) { return t > 216.0 / 24389.0 ? std::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0; }
+double f(double t)
+{
+    return t > 216.0 / 24389.0 ? std::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0;
+}
 
-double rho(double c, double alpha) { return 1.0 - std::exp(-c / alpha); } // eq. 12
+double rho(double c, double alpha)
+{
+    return 1.0 - std::exp(-c / alpha);
+} // eq. 12
 
 } // namespace
 
@@ -41,11 +50,8 @@ Pair::Picture Pair::prepare(ImageView<const Rgb8> picture) const
                 for (int dx = -1; dx <= 1; ++dx)
                     if (dx != 0 || dy != 0)
                         census = census * 2 + (grey(x + dx, y + dy) < grey(x, y));
-            prepared.push_back({116 * fy - 16,
-                                500 * (fx - fy),
-                                200 * (fy - fz),
-                                {double(p.r), double(p.g), double(p.b)},
-                                census});
+            prepared.push_back(
+                {116 * fy - 16, 500 * (fx - fy), 200 * (fy - fz), {double(p.r), double(p.g), double(p.b)}, census});
         }
     }
     return prepared;

@@ -42,8 +42,11 @@ private:
     using Picture = std::vector<Pixel>;
 
     Picture prepare(ImageView<const Rgb8> picture) const;
-    const Pixel& at(const Picture& picture, int x, int y) const { return picture[static_cast<std::size_t>(y * width_ + x)]; }
-    double cost(int x, int y, int d) const;                 // eq. 10 to 12
+    const Pixel& at(const Picture& picture, int x, int y) const
+    {
+        return picture[static_cast<std::size_t>(y * width_ + x)];
+    }
+    double cost(int x, int y, int d) const;                                      // eq. 10 to 12
     double weight(const Picture& picture, int px, int py, int qx, int qy) const; // eq. 6 to 8
 
     Settings settings_;

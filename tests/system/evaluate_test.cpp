@@ -48,7 +48,8 @@ struct Files
     test::TempFolder folder;
     std::string map = folder.write("map.pfm", pfm_row({10, 13, kNone, 7}));
     // Scale 4: 10, 10, 10 and unknown.
-    std::string truth = folder.write("truth.png", PngFile{.width = 4, .colour_type = 0, .raster = {0, 40, 40, 40, 0}}.bytes());
+    std::string truth =
+        folder.write("truth.png", PngFile{.width = 4, .colour_type = 0, .raster = {0, 40, 40, 40, 0}}.bytes());
 };
 
 TEST(Evaluate, AMapMeetsAScaledTruth)
@@ -67,7 +68,8 @@ TEST(Evaluate, AMapMeetsAScaledTruth)
 TEST(Evaluate, TheMaskChoosesThePixels)
 {
     const Files files;
-    const std::string mask = files.folder.write("mask.png", PngFile{.width = 4, .colour_type = 0, .raster = {0, 255, 128, 0, 255}}.bytes());
+    const std::string mask =
+        files.folder.write("mask.png", PngFile{.width = 4, .colour_type = 0, .raster = {0, 255, 128, 0, 255}}.bytes());
     const ToolRun run = evaluate(files.map + " " + files.truth + " --scale 4 --json --mask " + mask);
     ASSERT_EQ(run.exit_code, 0) << run.output;
     EXPECT_EQ(nlohmann::json::parse(run.output)["judged_pixels"], 1);

@@ -52,7 +52,8 @@ TEST(Match, BadPicturesAreNamedAndNothingIsLeft)
     const Pair pair;
     const TempFolder& folder = pair.folder;
     const Bytes jpeg = test::bytes_of(std::string{DICOT_PICTURE_CORPUS} + "/baseline_420.jpg");
-    const std::string cut = folder.write("cut.jpg", Bytes(jpeg.begin(), jpeg.end() - static_cast<std::ptrdiff_t>(jpeg.size() / 3)));
+    const std::string cut =
+        folder.write("cut.jpg", Bytes(jpeg.begin(), jpeg.end() - static_cast<std::ptrdiff_t>(jpeg.size() / 3)));
     const std::string empty = folder.write("empty.png", Bytes{});
     const std::string text = folder.write("text.png", "two leaves and a stem\n");
     const std::string one = folder.write("one.ppm", test::noise_ppm(1, 1, 3));
@@ -80,7 +81,8 @@ TEST(Match, WordsThatMakeNoSenseAreRefused)
     expect_refused(pair, match + " --disparities 8 --gamma-color nan", 64, "gamma-color");
     expect_refused(pair, match + " --disparities 8 --min-disparity 5000", 64, "5000");
     expect_refused(pair, pair.both() + kQuick + " -o " + pair.folder.path("map.tif"), 64, "map.tif");
-    expect_refused(pair, pair.both() + " --disparities 8 --min-disparity -4 -o " + pair.folder.path("map.png"), 64, "map.png");
+    expect_refused(pair, pair.both() + " --disparities 8 --min-disparity -4 -o " + pair.folder.path("map.png"), 64,
+                   "map.png");
 }
 
 TEST(Match, AnUnknownWordIsAUsageError)
@@ -116,13 +118,15 @@ TEST(Match, AFailureKeepsTheMapThatWasThereBefore)
     const Pair pair;
     const std::string kept = pair.folder.write("kept.pfm", "the map of yesterday");
     expect_refused(pair, pair.both() + " --disparities 900 -o " + kept, 64, "900");
-    EXPECT_EQ(test::bytes_of(kept), (Bytes{'t', 'h', 'e', ' ', 'm', 'a', 'p', ' ', 'o', 'f', ' ', 'y', 'e', 's', 't', 'e', 'r', 'd', 'a', 'y'}));
+    EXPECT_EQ(test::bytes_of(kept), (Bytes{'t', 'h', 'e', ' ', 'm', 'a', 'p', ' ', 'o', 'f',
+                                           ' ', 'y', 'e', 's', 't', 'e', 'r', 'd', 'a', 'y'}));
 }
 
 TEST(Match, TheReportSaysWhatTheFileHolds)
 {
     const Pair pair;
-    const ToolRun run = test::run(std::string{DICOT_PROGRAM} + " match " + pair.both() + kQuick + " --json -o " + pair.output);
+    const ToolRun run =
+        test::run(std::string{DICOT_PROGRAM} + " match " + pair.both() + kQuick + " --json -o " + pair.output);
     ASSERT_EQ(run.exit_code, 0) << run.output;
     const auto report = nlohmann::json::parse(run.output);
     EXPECT_EQ(report["width"], 40);

@@ -34,8 +34,8 @@ std::string rig_text(int width, const std::string& extra)
 {
     const std::string projection = "   rows: 3\n   cols: 4\n   dt: d\n   data: [ 500., 0., 100., ";
     const std::string rest = ", 0., 500., 45., 0., 0., 0., 1., 0. ]\n";
-    return "%YAML:1.0\n---\nimage_width: " + std::to_string(width) + "\nimage_height: 90\nid: wall\n" + extra + "P1: !!opencv-matrix\n"
-           + projection + "0." + rest + "P2: !!opencv-matrix\n" + projection + "-30000." + rest;
+    return "%YAML:1.0\n---\nimage_width: " + std::to_string(width) + "\nimage_height: 90\nid: wall\n" + extra +
+           "P1: !!opencv-matrix\n" + projection + "0." + rest + "P2: !!opencv-matrix\n" + projection + "-30000." + rest;
 }
 
 Bytes ppm(int width, const std::vector<std::uint8_t>& rgb)
@@ -63,7 +63,8 @@ struct Wall
             for (int y = 0; y < kHeight; ++y)
                 for (int x = 0; x < kWidth; ++x)
                     for (int c = 0; c < 3; ++c)
-                        rgb.push_back(texture[static_cast<std::size_t>((y * (kWidth + kDisparity) + x + shift) * 3 + c)]);
+                        rgb.push_back(
+                            texture[static_cast<std::size_t>((y * (kWidth + kDisparity) + x + shift) * 3 + c)]);
             return ppm(kWidth, rgb);
         };
         left = folder.write("left.ppm", view(0));
@@ -71,7 +72,10 @@ struct Wall
         rig = folder.write("rig.yaml", rig_text(kWidth, "near_mm: 1000\nfar_mm: 3000\n"));
     }
     std::string pair() const { return left + " " + right; }
-    std::string words(const std::string& output) const { return "process " + pair() + " --rig " + rig + " -o " + folder.path(output); }
+    std::string words(const std::string& output) const
+    {
+        return "process " + pair() + " --rig " + rig + " -o " + folder.path(output);
+    }
 };
 
 /// x, y, z of each vertex of a PLY of ours, in mm.
@@ -126,8 +130,8 @@ TEST(Process, SameBytesOnAnyThreadsAndAnyCpu)
 TEST(Process, PicturesOfTheResultArePictures)
 {
     const Wall wall;
-    const ToolRun run = dicot(wall.words("cloud.drc") + " --preview " + wall.folder.path("view.png") + " --disparity "
-                              + wall.folder.path("disparity.png"));
+    const ToolRun run = dicot(wall.words("cloud.drc") + " --preview " + wall.folder.path("view.png") + " --disparity " +
+                              wall.folder.path("disparity.png"));
     ASSERT_EQ(run.exit_code, 0) << run.output;
     const auto view = nlohmann::json::parse(dicot("info --json " + wall.folder.path("view.png")).output);
     EXPECT_EQ(view["kind"], "picture");
@@ -195,8 +199,10 @@ TEST(Process, BadInputIsOneSentenceAndLeavesNothing)
     expect_refused(wall, "process " + wall.pair() + " --rig " + unlimited + to, 64, "--near-mm");
     expect_refused(wall, "process " + wall.pair() + with_rig + " --near-mm 100", 64, "--near-mm");
     expect_refused(wall, "process " + wall.pair() + with_rig + " --near-mm 3000 --far-mm 2000", 64, "makes no sense");
-    expect_refused(wall, "process " + wall.pair() + " --rig " + wall.rig + " -o " + folder.path("cloud.ply"), 64, ".drc");
-    expect_refused(wall, "process " + wall.pair() + " --rig " + wall.rig + " -o /nowhere/at/all/cloud.drc", 73, "/nowhere/at/all");
+    expect_refused(wall, "process " + wall.pair() + " --rig " + wall.rig + " -o " + folder.path("cloud.ply"), 64,
+                   ".drc");
+    expect_refused(wall, "process " + wall.pair() + " --rig " + wall.rig + " -o /nowhere/at/all/cloud.drc", 73,
+                   "/nowhere/at/all");
     expect_refused(wall, wall.words("cloud.drc") + " --preview /nowhere/at/all/view.png", 73, "view.png");
     expect_refused(wall, "export " + wall.left + " -o " + folder.path("cloud.ply"), 65, "not a cloud file");
     expect_refused(wall, "export " + folder.path("gone.drc") + " -o " + folder.path("cloud.ply"), 66, "gone.drc");
@@ -229,8 +235,8 @@ TEST(Process, TheAloePairBecomesACloudThatDracoOpens)
     DICOT_NEED_TOOL("draco_decoder", "draco");
     const TempFolder folder;
     const std::string drc = folder.path("aloe.drc");
-    const ToolRun run = dicot("process " + aloe + "left.png " + aloe + "right.png --rig " + DICOT_TEST_DATA + "/aloe-third.yaml -o " + drc
-                              + " --json");
+    const ToolRun run = dicot("process " + aloe + "left.png " + aloe + "right.png --rig " + DICOT_TEST_DATA +
+                              "/aloe-third.yaml -o " + drc + " --json");
     ASSERT_EQ(run.exit_code, 0) << run.output;
     const auto report = nlohmann::json::parse(run.output);
     std::printf("%d points, %.1f bits a point, encode and verify %.3f s\n", report["points"].get<int>(),

@@ -46,7 +46,10 @@ TEST(Arena, MeasuringArenaAsksForExactlyWhatARealOneGives)
     EXPECT_TRUE(small.overrun());
 }
 
-Status fails() { return failure(Fault::kNoInput, "%s: no such file", "left.png"); }
+Status fails()
+{
+    return failure(Fault::kNoInput, "%s: no such file", "left.png");
+}
 Result<int> doubled(Result<int> input)
 {
     const int value = TRY(std::move(input));

@@ -20,7 +20,8 @@ struct Scene
 {
     Scene(int w, int h, int min_disparity_px)
         : width(w), height(h), disparity(static_cast<std::size_t>(w * h), kDispMissing),
-          confidence(disparity.size(), 128), colour(disparity.size()), memory(disparity.size() * sizeof(CloudPoint) / 64 + 2)
+          confidence(disparity.size(), 128), colour(disparity.size()),
+          memory(disparity.size() * sizeof(CloudPoint) / 64 + 2)
     {
         map.relative = {disparity.data(), w, h};
         map.confidence = {confidence.data(), w, h};
@@ -69,10 +70,13 @@ TEST(Triangulate, AgreesWithTheEquationsToTheNearestStep)
 {
     const std::uint32_t seed = 20240518;
     std::mt19937 random{seed};
-    const auto between = [&](double low, double high) { return low + (high - low) * (static_cast<double>(random()) / 4294967296.0); };
+    const auto between = [&](double low, double high) {
+        return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
+    };
     std::int64_t compared = 0;
     for (int round = 0; round < 60; ++round) {
-        const RigGeometry rig{200, 60, between(150, 4000), between(-50, 250), between(-20, 80), between(-20, 300), between(10, 400)};
+        const RigGeometry rig{
+            200, 60, between(150, 4000), between(-50, 250), between(-20, 80), between(-20, 300), between(10, 400)};
         const WorkingRange range{between(50, 300), between(2000, 20000)};
         Scene scene{rig.width, rig.height, static_cast<int>(random() % 40)};
         for (DispQ8& d : scene.disparity)
@@ -86,26 +90,31 @@ TEST(Triangulate, AgreesWithTheEquationsToTheNearestStep)
             point_of[static_cast<std::size_t>(point.colour.r + 256 * point.colour.g)] = &point;
         for (std::size_t i = 0; i < point_of.size(); ++i) {
             const double d = scene.map.min_disparity + scene.disparity[i] / 256.0;
-            const Exact exact = exact_point(rig, how.grid, static_cast<int>(i) % rig.width, static_cast<int>(i) / rig.width,
-                                            static_cast<long double>(d));
+            const Exact exact = exact_point(rig, how.grid, static_cast<int>(i) % rig.width,
+                                            static_cast<int>(i) / rig.width, static_cast<long double>(d));
             const auto margin = [](long double value, auto least, auto most) {
                 return std::min(value - static_cast<long double>(least), static_cast<long double>(most) - value);
             };
-            const long double inside = std::min({margin(exact.z, how.near_steps, how.far_steps), margin(exact.x, -(1 << 19), (1 << 19) - 1),
-                                                 margin(exact.y, -(1 << 19), (1 << 19) - 1)});
+            const long double inside =
+                std::min({margin(exact.z, how.near_steps, how.far_steps), margin(exact.x, -(1 << 19), (1 << 19) - 1),
+                          margin(exact.y, -(1 << 19), (1 << 19) - 1)});
             if (point_of[i] == nullptr) {
-                ASSERT_TRUE(inside < 1 || d + rig.disparity_offset_px <= 0) << "seed " << seed << " round " << round << " pixel " << i;
+                ASSERT_TRUE(inside < 1 || d + rig.disparity_offset_px <= 0)
+                    << "seed " << seed << " round " << round << " pixel " << i;
                 continue;
             }
             ASSERT_GT(inside, -1) << "seed " << seed << " round " << round << " pixel " << i;
-            const auto off = [](long double meant, std::int32_t got) { return std::fabs(meant - static_cast<long double>(got)); };
+            const auto off = [](long double meant, std::int32_t got) {
+                return std::fabs(meant - static_cast<long double>(got));
+            };
             ASSERT_LE(off(exact.z, point_of[i]->z), 0.5625L) << "seed " << seed << " round " << round << " pixel " << i;
             ASSERT_LE(off(exact.x, point_of[i]->x), 0.5625L) << "seed " << seed << " round " << round << " pixel " << i;
             ASSERT_LE(off(exact.y, point_of[i]->y), 0.5625L) << "seed " << seed << " round " << round << " pixel " << i;
             ++compared;
         }
         const PixelCount& pixels = result.pixels;
-        EXPECT_EQ(pixels.points + pixels.missing + pixels.beyond + pixels.too_near + pixels.too_far + pixels.outside_grid,
+        EXPECT_EQ(pixels.points + pixels.missing + pixels.beyond + pixels.too_near + pixels.too_far +
+                      pixels.outside_grid,
                   rig.width * rig.height);
     }
     EXPECT_GT(compared, 100000);
@@ -225,7 +234,8 @@ TEST(WorkingRange, TooWideASearchNamesTheNearestDistanceThatWorks)
 TEST(WorkingRange, SenselessRangesAreRefused)
 {
     const RigGeometry rig = test::aloe_third();
-    for (const WorkingRange range : {WorkingRange{0, 1000}, {-5, 1000}, {1000, 1000}, {2000, 1000}, {NAN, 1000}, {100, INFINITY}}) {
+    for (const WorkingRange range :
+         {WorkingRange{0, 1000}, {-5, 1000}, {1000, 1000}, {2000, 1000}, {NAN, 1000}, {100, INFINITY}}) {
         EXPECT_EQ(disparity_range(rig, range).status().fault(), Fault::kUsage) << range.near_mm << " " << range.far_mm;
         EXPECT_EQ(grid_for(rig, range).status().fault(), Fault::kUsage);
         EXPECT_EQ(triangulation_for(rig, range, CloudGrid{}).status().fault(), Fault::kUsage);
@@ -257,15 +267,16 @@ TEST(WorkingRange, SenselessRigsAreRefused)
 
 TEST(Grid, HoldsTheCornersOfTheFrustumAtBothEnds)
 {
-    for (const auto& [rig, range] : {std::pair{test::aloe_third(), WorkingRange{1000, 2500}},
-                                     std::pair{RigGeometry{1280, 720, 780, 640, 360, 0, 85}, WorkingRange{300, 1200}},
-                                     std::pair{RigGeometry{640, 480, 600, 900, -200, 0, 60}, WorkingRange{200, 6000}}}) {
+    for (const auto& [rig, range] :
+         {std::pair{test::aloe_third(), WorkingRange{1000, 2500}},
+          std::pair{RigGeometry{1280, 720, 780, 640, 360, 0, 85}, WorkingRange{300, 1200}},
+          std::pair{RigGeometry{640, 480, 600, 900, -200, 0, 60}, WorkingRange{200, 6000}}}) {
         const CloudGrid grid = grid_for(rig, range).value();
         for (const double z_mm : {range.near_mm, range.far_mm})
             for (const int x : {0, rig.width - 1})
                 for (const int y : {0, rig.height - 1}) {
-                    const double steps[3] = {(x - rig.cx_px) * z_mm / rig.focal_px * 10, (y - rig.cy_px) * z_mm / rig.focal_px * 10,
-                                             z_mm * 10};
+                    const double steps[3] = {(x - rig.cx_px) * z_mm / rig.focal_px * 10,
+                                             (y - rig.cy_px) * z_mm / rig.focal_px * 10, z_mm * 10};
                     for (int axis = 0; axis < 3; ++axis) {
                         EXPECT_GE(std::round(steps[axis]) - grid.origin[axis], 0);
                         EXPECT_LE(std::round(steps[axis]) - grid.origin[axis], (1 << grid.bits) - 1);

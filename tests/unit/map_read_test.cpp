@@ -94,10 +94,12 @@ TEST(ReadMap, InfinityInAPfmIsNoDisparity)
 
 TEST(ReadMap, APngIsDividedByItsScaleAndZeroIsNoDisparity)
 {
-    const Outcome wide = read_well(PngFile{.width = 3, .bits = 16, .colour_type = 0, .raster = {0, 0, 0, 1, 64, 255, 255}}.bytes(), 256);
+    const Outcome wide =
+        read_well(PngFile{.width = 3, .bits = 16, .colour_type = 0, .raster = {0, 0, 0, 1, 64, 255, 255}}.bytes(), 256);
     EXPECT_EQ(wide.head.kind, MapKind::kPng16);
     EXPECT_THAT(wide.values, ElementsAre(kNone, 1.25F, 65535.0F / 256));
-    const Outcome narrow = read_well(PngFile{.width = 2, .height = 2, .colour_type = 0, .raster = {0, 10, 0, 0, 255, 1}}.bytes(), 4);
+    const Outcome narrow =
+        read_well(PngFile{.width = 2, .height = 2, .colour_type = 0, .raster = {0, 10, 0, 0, 255, 1}}.bytes(), 4);
     EXPECT_EQ(narrow.head.kind, MapKind::kPng8);
     EXPECT_THAT(narrow.values, ElementsAre(2.5F, kNone, 63.75F, 0.25F));
 }

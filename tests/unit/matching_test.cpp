@@ -118,7 +118,8 @@ struct Variant
 };
 
 class SameBytes : public ::testing::TestWithParam<Variant>
-{};
+{
+};
 
 TEST_P(SameBytes, ForAnyThreadsBandsAndKernels)
 {

@@ -49,8 +49,14 @@ int count(const Picture& picture, auto wanted)
     return found;
 }
 
-bool reddish(const Rgb8& pixel) { return pixel.r > 100 && pixel.g < 90 && pixel.b < 90; }
-bool bluish(const Rgb8& pixel) { return pixel.b > 100 && pixel.r < 90 && pixel.g < 90; }
+bool reddish(const Rgb8& pixel)
+{
+    return pixel.r > 100 && pixel.g < 90 && pixel.b < 90;
+}
+bool bluish(const Rgb8& pixel)
+{
+    return pixel.b > 100 && pixel.r < 90 && pixel.g < 90;
+}
 
 TEST(Render, AWallFillsThePictureWithoutGaps)
 {
@@ -112,8 +118,8 @@ TEST(DisparityPicture, NearIsRedFarIsBlueMissingIsDarkGrey)
     map.disparities = 100;
     std::vector<Rgb8> pixels(300);
     paint_disparities(map, {pixels.data(), 30, 10});
-    EXPECT_GT(pixels[0].b, pixels[0].r);         // turbo's lower end
-    EXPECT_GT(pixels[1].r, 2 * pixels[1].b);     // and its upper one
+    EXPECT_GT(pixels[0].b, pixels[0].r);     // turbo's lower end
+    EXPECT_GT(pixels[1].r, 2 * pixels[1].b); // and its upper one
     EXPECT_LT(pixels[2].r, 64);
     EXPECT_LT(std::abs(pixels[2].r - pixels[2].b), 10);
 }

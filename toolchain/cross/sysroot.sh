@@ -44,7 +44,7 @@ mmdebstrap --quiet --variant=extract --architectures="$arch" --include="$package
 chmod 755 "$fresh"
 
 # Absolute links would lead out of the sysroot into the machine itself.
-find "$fresh" -type l -lname '/*' | while read -r link; do
+find "$fresh" -path "$fresh/dev" -prune -o -type l -lname '/*' -print | while read -r link; do
     ln -snf "$(realpath -m --relative-to="$(dirname "$link")" "$fresh$(readlink "$link")")" "$link"
 done
 printf '%s\n' "$recipe" > "$fresh/recipe"

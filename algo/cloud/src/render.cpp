@@ -40,7 +40,10 @@ struct Canvas
         depth = arena.take<float>(pixels);
         sample = arena.take<float>(kSamples);
     }
-    std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x); }
+    std::size_t index(int x, int y) const
+    {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+    }
 };
 
 Vec3 position_of(const CloudPoint& point)
@@ -108,7 +111,8 @@ private:
         const double right = slope(0.99, across);
         const double top = slope(0.01, down);
         const double bottom = slope(0.99, down);
-        scale_ = kMargin * std::min(canvas.width / std::max(right - left, 1e-6), canvas.height / std::max(bottom - top, 1e-6));
+        scale_ = kMargin *
+                 std::min(canvas.width / std::max(right - left, 1e-6), canvas.height / std::max(bottom - top, 1e-6));
         zero_x_ = canvas.width / 2.0 - scale_ * (left + right) / 2;
         zero_y_ = canvas.height / 2.0 - scale_ * (top + bottom) / 2;
     }

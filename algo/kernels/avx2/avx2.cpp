@@ -79,9 +79,9 @@ void match_cost(std::uint16_t* out, int n, int disparities, CostRow left, CostRo
         const __m128i census = _mm_set1_epi8(static_cast<char>(left.census[i]));
         for (int r = 0; r < disparities; r += 8) {
             const int j = i + r;
-            const __m128i difference = _mm_add_epi16(
-                _mm_add_epi16(distance8(red, right.red + j), distance8(green, right.green + j)),
-                distance8(blue, right.blue + j));
+            const __m128i difference =
+                _mm_add_epi16(_mm_add_epi16(distance8(red, right.red + j), distance8(green, right.green + j)),
+                              distance8(blue, right.blue + j));
             const __m128i bits =
                 _mm_xor_si128(census, _mm_loadl_epi64(reinterpret_cast<const __m128i*>(right.census + j)));
             const __m128i hamming =
@@ -183,12 +183,118 @@ void normalise(std::uint16_t* out, const std::uint32_t* numerator, const std::ui
         out[i] = static_cast<std::uint16_t>(std::uint64_t{numerator[i]} * 256 / denominator[i]);
 }
 
+// Four pixels: x in the lower half of the position vectors, y in the upper.
+struct Remap
+{
+    __m256i ramp;      // 0 1 2 3 0 1 2 3
+    __m256i last;      // 128 (side - 1)
+    __m256i last_left; // side - 2: the second pixel of an interpolated pair is inside too
+    __m128i stride;
+    __m128i last_load; // of the 8 bytes that hold two pixels
+    long long next_row;
+    const std::uint8_t* rgb;
+
+    explicit Remap(const RemapSource& source)
+        : ramp(_mm256_setr_epi32(0, 1, 2, 3, 0, 1, 2, 3)),
+          last(_mm256_set_m128i(_mm_set1_epi32(128 * (source.height - 1)), _mm_set1_epi32(128 * (source.width - 1)))),
+          last_left(_mm256_set_m128i(_mm_set1_epi32(source.height - 2), _mm_set1_epi32(source.width - 2))),
+          stride(_mm_set1_epi32(source.stride_bytes)), last_load(_mm_set1_epi32(3 * source.width - 8)),
+          next_row(source.stride_bytes), rgb(source.rgb)
+    {
+    }
+
+    static __m128i two_loads(const std::uint8_t* low, const std::uint8_t* high)
+    {
+        return _mm_unpacklo_epi64(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(low)),
+                                  _mm_loadl_epi64(reinterpret_cast<const __m128i*>(high)));
+    }
+
+    // 2 x 3 bytes of each of four pixels, red, green and blue beside their right neighbours' and less 128, times the
+    // weights of the columns: maddubs takes one signed factor, and a weight may be 128.
+    static Vec columns(const std::uint8_t* const (&from)[4], long long row, Vec surplus_bits, Vec weights)
+    {
+        const Vec pairs = _mm256_setr_epi8(0, 3, 1, 4, 2, 5, -1, -1, 8, 11, 9, 12, 10, 13, -1, -1, 0, 3, 1, 4, 2, 5, -1,
+                                           -1, 8, 11, 9, 12, 10, 13, -1, -1);
+        // Four loads: a gather takes longer, several times so on cores with mended microcode.
+        const Vec bytes =
+            _mm256_set_m128i(two_loads(from[2] + row, from[3] + row), two_loads(from[0] + row, from[1] + row));
+        const Vec pixels = _mm256_shuffle_epi8(_mm256_srlv_epi64(bytes, surplus_bits), pairs);
+        return _mm256_maddubs_epi16(weights, _mm256_xor_si256(pixels, _mm256_set1_epi8(-128)));
+    }
+
+    // 12 bytes.
+    __m128i quad(const RemapSpan& span, int first) const
+    {
+        const __m128i whole = _mm_loadu_si128(reinterpret_cast<const __m128i*>(&span));
+        const Vec both = _mm256_broadcastsi128_si256(whole);
+        const Vec start = _mm256_permutevar8x32_epi32(both, _mm256_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1));
+        const Vec step = _mm256_permutevar8x32_epi32(both, _mm256_setr_epi32(2, 2, 2, 2, 3, 3, 3, 3));
+        const Vec way = _mm256_mullo_epi32(step, _mm256_add_epi32(ramp, _mm256_set1_epi32(first)));
+        const Vec fine =
+            _mm256_srai_epi32(_mm256_add_epi32(_mm256_add_epi32(start, way), _mm256_set1_epi32(1 << 8)), 9);
+        const Vec held = _mm256_max_epi32(_mm256_min_epi32(fine, last), _mm256_setzero_si256());
+        const Vec same = _mm256_cmpeq_epi32(fine, held);
+        const __m128i inside = _mm_and_si128(_mm256_castsi256_si128(same), _mm256_extracti128_si256(same, 1));
+
+        const Vec corner = _mm256_min_epi32(_mm256_srli_epi32(held, 7), last_left);
+        const Vec second = _mm256_sub_epi32(held, _mm256_slli_epi32(corner, 7)); // 0 .. 128
+        const Vec one = _mm256_sub_epi32(_mm256_set1_epi32(128), second);
+        const __m128i x = _mm256_castsi256_si128(corner);
+        const __m128i at = _mm_add_epi32(x, _mm_add_epi32(x, x));
+        const __m128i load = _mm_min_epi32(at, last_load);
+        const Vec surplus = _mm256_slli_epi64(_mm256_cvtepu32_epi64(_mm_sub_epi32(at, load)), 3);
+        const __m128i row = _mm_mullo_epi32(_mm256_extracti128_si256(corner, 1), stride);
+
+        // Weights of the columns as bytes (one, second) four times a pixel, of the rows as words twice a pixel.
+        const __m128i a = _mm_or_si128(_mm256_castsi256_si128(one), _mm_slli_epi32(_mm256_castsi256_si128(second), 8));
+        const Vec by_column = _mm256_shuffle_epi8(_mm256_cvtepu32_epi64(a),
+                                                  _mm256_setr_epi8(0, 1, 0, 1, 0, 1, 0, 1, 8, 9, 8, 9, 8, 9, 8, 9, 0, 1,
+                                                                   0, 1, 0, 1, 0, 1, 8, 9, 8, 9, 8, 9, 8, 9));
+        const __m128i b =
+            _mm_or_si128(_mm256_extracti128_si256(one, 1), _mm_slli_epi32(_mm256_extracti128_si256(second, 1), 16));
+        const Vec by_row = _mm256_cvtepu32_epi64(b);
+
+        const __m128i offset = _mm_add_epi32(row, load);
+        const std::uint8_t* const from[4] = {rgb + _mm_extract_epi32(offset, 0), rgb + _mm_extract_epi32(offset, 1),
+                                             rgb + _mm_extract_epi32(offset, 2), rgb + _mm_extract_epi32(offset, 3)};
+        const Vec above = columns(from, 0, surplus, by_column);
+        const Vec below = columns(from, next_row, surplus, by_column);
+        // The first and third pixel, and the second and fourth.
+        const Vec even = _mm256_madd_epi16(_mm256_unpacklo_epi16(above, below), _mm256_shuffle_epi32(by_row, 0x00));
+        const Vec odd = _mm256_madd_epi16(_mm256_unpackhi_epi16(above, below), _mm256_shuffle_epi32(by_row, 0xAA));
+        const Vec round = _mm256_set1_epi32((128 << 14) + (1 << 13)); // gives back the 128, too
+        const Vec words = _mm256_packs_epi32(_mm256_srai_epi32(_mm256_add_epi32(even, round), 14),
+                                             _mm256_srai_epi32(_mm256_add_epi32(odd, round), 14));
+        const __m128i bytes = _mm_packus_epi16(_mm256_castsi256_si128(words), _mm256_extracti128_si256(words, 1));
+        return _mm_shuffle_epi8(_mm_and_si128(bytes, inside),
+                                _mm_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1));
+    }
+};
+
+void remap_row(std::uint8_t* rgb, int n, const RemapSpan* spans, int cell_log2, const RemapSource& source)
+{
+    const Remap remap(source);
+    const int in_cell = (1 << cell_log2) - 1;
+    int i = 0;
+    for (; i + 4 <= n; i += 4) {
+        const __m128i quad = remap.quad(spans[i >> cell_log2], i & in_cell);
+        _mm_storel_epi64(reinterpret_cast<__m128i*>(rgb + 3 * i), quad);
+        _mm_storeu_si32(rgb + 3 * i + 8, _mm_srli_si128(quad, 8));
+    }
+    if (i < n) {
+        alignas(16) std::uint8_t rest[16];
+        _mm_store_si128(reinterpret_cast<__m128i*>(rest), remap.quad(spans[i >> cell_log2], i & in_cell));
+        for (int k = 0; k < 3 * (n - i); ++k)
+            rgb[3 * i + k] = rest[k];
+    }
+}
+
 #undef DICOT_LOAD
 #undef DICOT_STORE
 
 } // namespace
 
 extern const Kernels kAvx2Kernels;
-const Kernels kAvx2Kernels = {"avx2", support_weights, match_cost, aggregate, normalise};
+const Kernels kAvx2Kernels = {"avx2", support_weights, match_cost, aggregate, normalise, remap_row};
 
 } // namespace dicot

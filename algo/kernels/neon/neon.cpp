@@ -382,9 +382,82 @@ void normalise(std::uint16_t* out, const std::uint32_t* numerator, const std::ui
         out[i] = static_cast<std::uint16_t>(std::uint64_t{numerator[i]} * 256 / denominator[i]);
 }
 
+// ---- remap ----------------------------------------------------------------------------------------------------------
+
+// Two neighbouring pixels in the lower 6 bytes. The 8 bytes end at the row's end at the latest.
+uint8x8_t pixel_pair(const std::uint8_t* from, int64x1_t shift)
+{
+    return vreinterpret_u8_u64(vshl_u64(vreinterpret_u64_u8(vld1_u8(from)), shift)); // a negative shift goes right
+}
+
+// (128 - a) of the left pixel and a of the right one; three lanes count.
+uint16x4_t blend_columns(uint8x8_t pair, uint8x8_t one, uint8x8_t second)
+{
+    return vget_low_u16(vmlal_u8(vmull_u8(pair, one), vext_u8(pair, pair, 3), second));
+}
+
+struct RemapQuad
+{
+    std::int32_t x[4], y[4]; // held inside, with 7 fraction bits
+    std::uint32_t inside[4];
+};
+
+RemapQuad positions(const RemapSpan& span, int first, const RemapSource& source)
+{
+    static const std::int32_t kRamp[4] = {0, 1, 2, 3};
+    const int32x4_t u = vaddq_s32(vld1q_s32(kRamp), vdupq_n_s32(first));
+    const int32x4_t x = vrshrq_n_s32(vmlaq_n_s32(vdupq_n_s32(span.x), u, span.dx), 9);
+    const int32x4_t y = vrshrq_n_s32(vmlaq_n_s32(vdupq_n_s32(span.y), u, span.dy), 9);
+    const int32x4_t zero = vdupq_n_s32(0);
+    const int32x4_t held_x = vmaxq_s32(vminq_s32(x, vdupq_n_s32(128 * (source.width - 1))), zero);
+    const int32x4_t held_y = vmaxq_s32(vminq_s32(y, vdupq_n_s32(128 * (source.height - 1))), zero);
+    RemapQuad quad;
+    vst1q_s32(quad.x, held_x);
+    vst1q_s32(quad.y, held_y);
+    vst1q_u32(quad.inside, vandq_u32(vceqq_s32(x, held_x), vceqq_s32(y, held_y)));
+    return quad;
+}
+
+uint16x4_t remap_pixel(int x, int y, const RemapSource& source)
+{
+    const int left = x >> 7 < source.width - 2 ? x >> 7 : source.width - 2;
+    const int above = y >> 7 < source.height - 2 ? y >> 7 : source.height - 2;
+    const int a = x - (left << 7); // 0 .. 128
+    const int b = y - (above << 7);
+    const int last_load = 3 * source.width - 8;
+    const int load = 3 * left < last_load ? 3 * left : last_load;
+    const int64x1_t surplus = vdup_n_s64(-8 * (3 * left - load));
+    const uint8x8_t one = vdup_n_u8(static_cast<std::uint8_t>(128 - a));
+    const uint8x8_t second = vdup_n_u8(static_cast<std::uint8_t>(a));
+    const std::uint8_t* from = source.rgb + above * source.stride_bytes + load;
+    const uint16x4_t top = blend_columns(pixel_pair(from, surplus), one, second);
+    const uint16x4_t bottom = blend_columns(pixel_pair(from + source.stride_bytes, surplus), one, second);
+    const uint32x4_t sum =
+        vmlal_n_u16(vmull_n_u16(top, static_cast<std::uint16_t>(128 - b)), bottom, static_cast<std::uint16_t>(b));
+    return vrshrn_n_u32(sum, 14);
+}
+
+void remap_row(std::uint8_t* rgb, int n, const RemapSpan* spans, int cell_log2, const RemapSource& source)
+{
+    const int in_cell = (1 << cell_log2) - 1;
+    for (int i = 0; i < n; i += 4) {
+        const RemapQuad quad = positions(spans[i >> cell_log2], i & in_cell, source);
+        const int count = n - i < 4 ? n - i : 4;
+        for (int k = 0; k < count; ++k) {
+            const uint16x4_t pixel = vand_u16(remap_pixel(quad.x[k], quad.y[k], source),
+                                              vdup_n_u16(static_cast<std::uint16_t>(quad.inside[k])));
+            const uint8x8_t bytes = vmovn_u16(vcombine_u16(pixel, pixel));
+            std::uint8_t* const to = rgb + 3 * (i + k);
+            vst1_lane_u8(to, bytes, 0);
+            vst1_lane_u8(to + 1, bytes, 1);
+            vst1_lane_u8(to + 2, bytes, 2);
+        }
+    }
+}
+
 } // namespace
 
 extern const Kernels kNeonKernels;
-const Kernels kNeonKernels = {"neon", support_weights, match_cost, aggregate, normalise};
+const Kernels kNeonKernels = {"neon", support_weights, match_cost, aggregate, normalise, remap_row};
 
 } // namespace dicot

@@ -2,6 +2,7 @@
 #include "dicot/kernels/kernels.h"
 
 #include <bit>
+#include <cstddef>
 #include <cstdlib>
 
 namespace dicot {
@@ -22,7 +23,10 @@ int squared_distance(LabRow p, LabRow q, int i)
     return l * l + a * a + b * b;
 }
 
-std::uint32_t round_q15(std::uint32_t product) { return (product + (1u << 14)) >> 15; }
+std::uint32_t round_q15(std::uint32_t product)
+{
+    return (product + (1u << 14)) >> 15;
+}
 
 void support_weights(PairU16* out, int n, LabRow p, LabRow q_low, LabRow q_high, const std::uint16_t* colour,
                      PairU16 spatial)
@@ -76,8 +80,34 @@ void normalise(std::uint16_t* out, const std::uint32_t* numerator, const std::ui
         out[i] = static_cast<std::uint16_t>(std::uint64_t{numerator[i]} * 256 / denominator[i]);
 }
 
+void remap_row(std::uint8_t* rgb, int n, const RemapSpan* spans, int cell_log2, const RemapSource& source)
+{
+    for (int i = 0; i < n; ++i) {
+        const RemapSpan& span = spans[i >> cell_log2];
+        const int u = i & ((1 << cell_log2) - 1);
+        const int x = (span.x + u * span.dx + (1 << 8)) >> 9;
+        const int y = (span.y + u * span.dy + (1 << 8)) >> 9;
+        const bool inside = x >= 0 && y >= 0 && x <= 128 * (source.width - 1) && y <= 128 * (source.height - 1);
+        for (int channel = 0; channel < 3; ++channel) {
+            const auto pixel = [&](int column, int row) -> int {
+                return source.rgb[std::ptrdiff_t{row} * source.stride_bytes + 3 * column + channel];
+            };
+            int value = 0;
+            if (inside) {
+                // On the last column or row the second of the two weighs nothing.
+                const int left = x >> 7, right = left + (x % 128 != 0), a = x & 127;
+                const int above = y >> 7, below = above + (y % 128 != 0), b = y & 127;
+                value = ((128 - b) * ((128 - a) * pixel(left, above) + a * pixel(right, above)) +
+                         b * ((128 - a) * pixel(left, below) + a * pixel(right, below)) + (1 << 13)) >>
+                        14;
+            }
+            rgb[3 * i + channel] = static_cast<std::uint8_t>(value);
+        }
+    }
+}
+
 } // namespace
 
-const Kernels kScalarKernels = {"scalar", support_weights, match_cost, aggregate, normalise};
+const Kernels kScalarKernels = {"scalar", support_weights, match_cost, aggregate, normalise, remap_row};
 
 } // namespace dicot

@@ -81,7 +81,10 @@ PairU16 spatial_pair(std::span<const std::uint16_t> spatial, int columns, int lo
     return {weight(low_row, low_in), weight(high_row, high_in)};
 }
 
-LabRow moved(LabRow row, int columns) { return {row.la + columns, row.b + columns}; }
+LabRow moved(LabRow row, int columns)
+{
+    return {row.la + columns, row.b + columns};
+}
 
 } // namespace
 

@@ -26,9 +26,9 @@ struct Scene
     CostTables costs;
     int width;
     int height;
-    int radius;           ///< of the window
-    int disparities;      ///< as asked for
-    int axis;             ///< disparities, padded to whole vectors
+    int radius;      ///< of the window
+    int disparities; ///< as asked for
+    int axis;        ///< disparities, padded to whole vectors
     int min_disparity;
 };
 
@@ -61,9 +61,9 @@ private:
     int right_stride_ = 0;
     int cost_width_ = 0;
     int next_cost_row_ = -1;
-    std::span<PairU16> costs_; ///< [groups][width + 2 radius][axis]
-    std::span<PairU16> left_;  ///< [groups][columns][kStrip]
-    std::span<PairU16> right_; ///< [groups][columns][right_stride]
+    std::span<PairU16> costs_;                         ///< [groups][width + 2 radius][axis]
+    std::span<PairU16> left_;                          ///< [groups][columns][kStrip]
+    std::span<PairU16> right_;                         ///< [groups][columns][right_stride]
     std::span<std::uint32_t> numerator_, denominator_; ///< [kStrip][axis]
     std::span<std::uint16_t> row_;                     ///< [width][axis]
 };

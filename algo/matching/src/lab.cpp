@@ -20,7 +20,10 @@ double linear_light(double c)
     return x * x * exact_root(x * x, 5); // x^2.4
 }
 
-double cie_f(double t) { return t > 216.0 / 24389.0 ? exact_root(t, 3) : (24389.0 / 27.0 * t + 16.0) / 116.0; }
+double cie_f(double t)
+{
+    return t > 216.0 / 24389.0 ? exact_root(t, 3) : (24389.0 / 27.0 * t + 16.0) / 116.0;
+}
 
 int f_of(std::uint32_t t_q16, const LabTables& tables)
 {

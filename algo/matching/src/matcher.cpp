@@ -87,8 +87,8 @@ Status Matcher::check(int width, int height, const MatchOptions& options)
 {
     constexpr int kLeastSide = 8;
     if (width < kLeastSide || height < kLeastSide)
-        return failure(Fault::kBadData, "the pictures are %d x %d px; the smallest that can be matched is %d x %d", width,
-                       height, kLeastSide, kLeastSide);
+        return failure(Fault::kBadData, "the pictures are %d x %d px; the smallest that can be matched is %d x %d",
+                       width, height, kLeastSide, kLeastSide);
     if (options.disparities < 1 || options.disparities > kMaxDisparities)
         return failure(Fault::kUsage, "%d disparities: choose 1 to %d, or match smaller pictures", options.disparities,
                        kMaxDisparities);
@@ -155,7 +155,8 @@ std::uint64_t Matcher::terms() const
            static_cast<std::uint64_t>(scene.disparities);
 }
 
-MatchOutcome Matcher::match(ImageView<const Rgb8> left, ImageView<const Rgb8> right, Crew& crew, const MatchHooks& hooks)
+MatchOutcome Matcher::match(ImageView<const Rgb8> left, ImageView<const Rgb8> right, Crew& crew,
+                            const MatchHooks& hooks)
 {
     using namespace matching;
     Bench& bench = *bench_;

@@ -9,7 +9,10 @@ constexpr PairS16 kOutsideLa = {kLabOutside, 0};
 constexpr PairS16 kOutsideB = {0, 0};
 
 // ITU-R BT.601 luma, Q8.
-int grey(Rgb8 p) { return (77 * p.r + 150 * p.g + 29 * p.b) >> 8; }
+int grey(Rgb8 p)
+{
+    return (77 * p.r + 150 * p.g + 29 * p.b) >> 8;
+}
 
 // 3 x 3 census (eq. 11): one bit a neighbour, set where it is darker than the centre; borders repeat.
 std::uint8_t census(const Rgb8* const rows[3], int x, int width)

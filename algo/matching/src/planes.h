@@ -10,9 +10,9 @@
 
 namespace dicot::matching {
 
-/// One picture. Column x of the *search frame* may lie outside the picture: from -margin_left to width + margin_right - 1.
-/// For the left picture the search frame is the picture; for the right one it is shifted by the least disparity, so
-/// that column x - d of the frame is the partner of left column x at relative disparity d.
+/// One picture. Column x of the *search frame* may lie outside the picture: from -margin_left to width + margin_right
+/// - 1. For the left picture the search frame is the picture; for the right one it is shifted by the least disparity,
+/// so that column x - d of the frame is the partner of left column x at relative disparity d.
 class Planes
 {
 public:

@@ -70,7 +70,8 @@ void median_row(ImageView<const DispQ8> from, int y, DispQ8* to)
 }
 
 /// The weighted median of the window of (x, y), to whole pixels, and the weighted mean of the values that share them.
-DispQ8 weighted_median(ImageView<const DispQ8> map, const Maps& maps, const Planes& left, const ColourWeights& weights, int x, int y)
+DispQ8 weighted_median(ImageView<const DispQ8> map, const Maps& maps, const Planes& left, const ColourWeights& weights,
+                       int x, int y)
 {
     std::array<std::uint32_t, kMaxDisparities + 2> votes{};
     std::array<std::uint64_t, kMaxDisparities + 2> sums{};
@@ -83,7 +84,8 @@ DispQ8 weighted_median(ImageView<const DispQ8> map, const Maps& maps, const Plan
             if (verdict == Verdict::kUnseen)
                 continue;
             // What was filled from both sides has half a vote.
-            const std::uint32_t weight = std::uint32_t{weights.between(centre, x, row, nx)} >> (verdict == Verdict::kMatched ? 0 : 1);
+            const std::uint32_t weight =
+                std::uint32_t{weights.between(centre, x, row, nx)} >> (verdict == Verdict::kMatched ? 0 : 1);
             const DispQ8 value = map.row(ny)[nx];
             votes[value >> 8] += weight;
             sums[value >> 8] += std::uint64_t{weight} * value;

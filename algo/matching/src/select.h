@@ -19,7 +19,7 @@ enum class Verdict : std::uint8_t
 /// The results of one row.
 struct SelectedRow
 {
-    std::span<DispQ8> disparity;         ///< relative, with sub-pixel part; kDispMissing without a candidate
+    std::span<DispQ8> disparity; ///< relative, with sub-pixel part; kDispMissing without a candidate
     std::span<std::uint8_t> confidence;
     std::span<Verdict> verdict;
 };
@@ -36,7 +36,7 @@ public:
 private:
     void right_winners(const Scene& scene, AggregatedRow costs);
 
-    std::span<std::uint16_t> right_cost_;   ///< [width + axis - 1], from column -(axis - 1) of the search frame
+    std::span<std::uint16_t> right_cost_; ///< [width + axis - 1], from column -(axis - 1) of the search frame
     std::span<std::uint8_t> right_winner_;
 };
 

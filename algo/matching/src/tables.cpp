@@ -13,7 +13,10 @@ constexpr double kAlphaCensus = 5;      // eq. 12, bits
 constexpr double kAlphaDifference = 15; // eq. 12, grey levels
 constexpr double kTadThreshold = 40;    // eq. 9, grey levels
 
-std::uint16_t rounded(double x) { return static_cast<std::uint16_t>(x + 0.5); }
+std::uint16_t rounded(double x)
+{
+    return static_cast<std::uint16_t>(x + 0.5);
+}
 
 } // namespace
 

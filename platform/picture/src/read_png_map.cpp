@@ -29,8 +29,8 @@ void read_values(PngReader& reader, const MapRequest& request, int bytes)
     const ImageView<float>& into = *request.into;
     const auto width = static_cast<std::size_t>(into.width);
     if (png_get_interlace_type(reader.png, reader.info) != PNG_INTERLACE_NONE)
-        leave(reader, failure(Fault::kBadData, "%s: the map is interlaced; save it without",
-                              shown_path(reader.source.name())));
+        leave(reader,
+              failure(Fault::kBadData, "%s: the map is interlaced; save it without", shown_path(reader.source.name())));
     if (bytes == 2 && std::endian::native == std::endian::little)
         png_set_swap(reader.png);
     png_read_update_info(reader.png, reader.info);

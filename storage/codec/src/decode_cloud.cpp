@@ -31,8 +31,8 @@ bool point_of(const PlainPoint& plain, const CloudGrid& grid, CloudPoint& point)
         return false;
     point.colour = plain.colour;
     point.confidence = static_cast<std::uint8_t>(std::lround(plain.confidence * 255.0F));
-    return step_of(plain.metres[0], grid, 0, point.x) && step_of(plain.metres[1], grid, 1, point.y)
-           && step_of(plain.metres[2], grid, 2, point.z);
+    return step_of(plain.metres[0], grid, 0, point.x) && step_of(plain.metres[1], grid, 1, point.y) &&
+           step_of(plain.metres[2], grid, 2, point.z);
 }
 
 } // namespace
@@ -42,12 +42,14 @@ std::size_t decode_heap_bytes(std::size_t points)
     return kDecodeBytesFixed + points * kDecodeBytesPerPoint;
 }
 
-Status decode_cloud(std::span<const std::byte> file, const CloudOutline& outline, const char* name, std::span<std::byte> heap,
-                    std::span<CloudPoint> points)
+Status decode_cloud(std::span<const std::byte> file, const CloudOutline& outline, const char* name,
+                    std::span<std::byte> heap, std::span<CloudPoint> points)
 {
-    const Status damaged = failure(Fault::kBadData, "%s: the cloud file is damaged: copy or make it again", shown_path(name));
+    const Status damaged =
+        failure(Fault::kBadData, "%s: the cloud file is damaged: copy or make it again", shown_path(name));
     if (points.size() != outline.points)
-        return failure(Fault::kSoftware, "%s: room for %zu points, not %zu", shown_path(name), points.size(), outline.points);
+        return failure(Fault::kSoftware, "%s: room for %zu points, not %zu", shown_path(name), points.size(),
+                       outline.points);
     LentHeap lent{heap};
     try {
         const DracoPoints decoded = DracoPoints::unpack(file, outline.points);

@@ -58,9 +58,9 @@ private:
                                            std::size_t count) const
     {
         const draco::PointAttribute* found = cloud_->GetNamedAttribute(type);
-        const bool ours = found != nullptr && found->data_type() == data && found->num_components() == components
-                          && found->size() == count && found->is_mapping_identity()
-                          && found->byte_stride() == components * draco::DataTypeLength(data);
+        const bool ours = found != nullptr && found->data_type() == data && found->num_components() == components &&
+                          found->size() == count && found->is_mapping_identity() &&
+                          found->byte_stride() == components * draco::DataTypeLength(data);
         return ours ? found : nullptr;
     }
 

@@ -39,7 +39,7 @@ Status check(const PointCloud& cloud)
     const CloudGrid& grid = cloud.grid;
     if (cloud.points.empty())
         return failure(Fault::kBadData, "the cloud has no points: nothing was matched within the working range; "
-                       "check --near-mm and --far-mm, and the light");
+                                        "check --near-mm and --far-mm, and the light");
     if (cloud.points.size() > kMaxCloudPoints)
         return failure(Fault::kConfig, "the cloud has %zu points, and a file holds %zu at most: use smaller pictures",
                        cloud.points.size(), kMaxCloudPoints);
@@ -97,8 +97,10 @@ bool pack(const PointCloud& cloud, const CloudMeta& meta, draco::EncoderBuffer& 
     draco::ExpertEncoder encoder(points);
     encoder.SetEncodingMethod(draco::POINT_CLOUD_SEQUENTIAL_ENCODING);
     encoder.SetSpeedOptions(kSpeed, kSpeed);
-    const float origin[3] = {metres_of(grid.origin[0], grid), metres_of(grid.origin[1], grid), metres_of(grid.origin[2], grid)};
-    encoder.SetAttributeExplicitQuantization(position, grid.bits, 3, origin, metres_of((std::int64_t{1} << grid.bits) - 1, grid));
+    const float origin[3] = {metres_of(grid.origin[0], grid), metres_of(grid.origin[1], grid),
+                             metres_of(grid.origin[2], grid)};
+    encoder.SetAttributeExplicitQuantization(position, grid.bits, 3, origin,
+                                             metres_of((std::int64_t{1} << grid.bits) - 1, grid));
     const float zero = 0;
     encoder.SetAttributeExplicitQuantization(confidence, kConfidenceBits, 1, &zero, 1.0F);
     return encoder.EncodeToBuffer(&out).ok();
@@ -150,15 +152,18 @@ Result<EncodedCloud> encode_cloud(const PointCloud& cloud, const CloudMeta& meta
                 return failure(Fault::kSoftware, "the compressor refuses the cloud: report this");
             encoded.proof = TRY(prove(cloud, std::as_bytes(std::span{file.data(), file.size()})));
         } catch (const std::bad_alloc&) {
-            return failure(Fault::kConfig, "%zu points do not fit the compressor's %zu KiB of memory: use smaller pictures, or "
-                           "give it more", cloud.points.size(), heap.size() >> 10);
+            return failure(Fault::kConfig,
+                           "%zu points do not fit the compressor's %zu KiB of memory: use smaller pictures, or "
+                           "give it more",
+                           cloud.points.size(), heap.size() >> 10);
         } catch (const std::exception& error) {
             return failure(Fault::kSoftware, "the compressor failed: %s", error.what());
         }
         encoded.heap_peak_bytes = lent.peak_bytes();
     }
     if (file.size() > heap.size())
-        return failure(Fault::kConfig, "%zu bytes of cloud do not fit the %zu that were lent", file.size(), heap.size());
+        return failure(Fault::kConfig, "%zu bytes of cloud do not fit the %zu that were lent", file.size(),
+                       heap.size());
     std::memmove(heap.data(), file.data(), file.size());
     encoded.bytes = heap.first(file.size());
     return encoded;

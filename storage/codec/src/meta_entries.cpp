@@ -70,8 +70,8 @@ bool origin_of(std::string_view text, CloudGrid& grid)
 {
     for (int axis = 0; axis < 3; ++axis) {
         const std::size_t space = axis < 2 ? text.find(' ') : text.size();
-        if (space == std::string_view::npos || !number_of(text.substr(0, space), grid.origin[axis])
-            || grid.origin[axis] < -kMaxOriginSteps || grid.origin[axis] > kMaxOriginSteps)
+        if (space == std::string_view::npos || !number_of(text.substr(0, space), grid.origin[axis]) ||
+            grid.origin[axis] < -kMaxOriginSteps || grid.origin[axis] > kMaxOriginSteps)
             return false;
         text.remove_prefix(axis < 2 ? space + 1 : space);
     }

@@ -28,7 +28,14 @@ MetaEntries entries_of(const CloudMeta& meta, const CloudGrid& grid);
 bool take_entry(std::string_view key, std::string_view text, CloudMeta& meta, CloudGrid& grid);
 
 /// Keys without which a cloud cannot be read, as bits of `seen`.
-enum GridKey : unsigned { kSeenUnit = 1, kSeenStep = 2, kSeenBits = 4, kSeenOrigin = 8, kSeenAll = 15 };
+enum GridKey : unsigned
+{
+    kSeenUnit = 1,
+    kSeenStep = 2,
+    kSeenBits = 4,
+    kSeenOrigin = 8,
+    kSeenAll = 15
+};
 unsigned grid_key(std::string_view key);
 
 } // namespace dicot

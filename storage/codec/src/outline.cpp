@@ -64,13 +64,15 @@ constexpr std::uint32_t kMostEntries = 64;
 
 Status damaged(const char* name, const char* what)
 {
-    return failure(Fault::kBadData, "%s: the cloud file is damaged (%s): copy or make it again", shown_path(name), what);
+    return failure(Fault::kBadData, "%s: the cloud file is damaged (%s): copy or make it again", shown_path(name),
+                   what);
 }
 
 Status read_header(Bytes& bytes, const char* name)
 {
     if (bytes.text(kMagic.size()) != kMagic)
-        return failure(Fault::kBadData, "%s: not a cloud file (.drc): give a file that 'dicot process' wrote", shown_path(name));
+        return failure(Fault::kBadData, "%s: not a cloud file (.drc): give a file that 'dicot process' wrote",
+                       shown_path(name));
     const std::uint32_t version = bytes.u8() * 256U + bytes.u8();
     const std::uint8_t geometry = bytes.u8();
     const std::uint8_t method = bytes.u8();
@@ -86,8 +88,9 @@ Status read_header(Bytes& bytes, const char* name)
 /// The one attribute that has metadata: confidence, by its name.
 Status read_attribute_names(Bytes& bytes, const char* name)
 {
-    const bool ours = bytes.varint() == 1 && bytes.varint() == kAttributes[2][4] && bytes.varint() == 1
-                      && bytes.text(bytes.u8()) == "name" && bytes.text(bytes.varint()) == "confidence" && bytes.varint() == 0;
+    const bool ours = bytes.varint() == 1 && bytes.varint() == kAttributes[2][4] && bytes.varint() == 1 &&
+                      bytes.text(bytes.u8()) == "name" && bytes.text(bytes.varint()) == "confidence" &&
+                      bytes.varint() == 0;
     return ours ? Status{} : damaged(name, "no attribute is named confidence");
 }
 
@@ -131,8 +134,10 @@ bool read_attributes(Bytes& bytes)
 Result<CloudOutline> outline_of(std::span<const std::byte> file, const char* name)
 {
     if (file.size() > kMaxCloudFileBytes)
-        return failure(Fault::kBadData, "%s: %zu MiB are more than any cloud file has (%zu MiB): give a file that "
-                       "'dicot process' wrote", shown_path(name), file.size() >> 20, kMaxCloudFileBytes >> 20);
+        return failure(Fault::kBadData,
+                       "%s: %zu MiB are more than any cloud file has (%zu MiB): give a file that "
+                       "'dicot process' wrote",
+                       shown_path(name), file.size() >> 20, kMaxCloudFileBytes >> 20);
     Bytes bytes{file};
     CloudOutline outline;
     TRY(read_header(bytes, name));

@@ -35,8 +35,11 @@ Status put_comments(OutputFile& file, const char* mark, const CloudMeta& meta)
     {
         const char* key;
         const CloudMeta::Text& text;
-    } known[] = {{"captured_at", meta.captured_at}, {"clock_trust", meta.clock_trust},       {"device_id", meta.device_id},
-                 {"calibration_id", meta.calibration_id}, {"software", meta.software}};
+    } known[] = {{"captured_at", meta.captured_at},
+                 {"clock_trust", meta.clock_trust},
+                 {"device_id", meta.device_id},
+                 {"calibration_id", meta.calibration_id},
+                 {"software", meta.software}};
     for (const auto& [key, text] : known)
         if (!text.empty())
             TRY(put_line(file, "%s %s %s\n", mark, key, text.c_str()));
@@ -127,7 +130,8 @@ Status export_cloud(const char* path, const PointCloud& cloud, const CloudMeta& 
         return write_ply(path, cloud, meta);
     if (name.ends_with(".pcd"))
         return write_pcd(path, cloud, meta);
-    return failure(Fault::kUsage, "%s: clouds are exported as .ply or .pcd: give the file one of these endings", shown_path(path));
+    return failure(Fault::kUsage, "%s: clouds are exported as .ply or .pcd: give the file one of these endings",
+                   shown_path(path));
 }
 
 } // namespace dicot

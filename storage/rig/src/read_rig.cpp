@@ -24,7 +24,8 @@ public:
     Result<RigFile> read()
     {
         if (events_.kind() != Kind::kMapStart)
-            return events_.status().ok() ? events_.fault("no rig's description: keys and values are expected") : events_.status();
+            return events_.status().ok() ? events_.fault("no rig's description: keys and values are expected")
+                                         : events_.status();
         events_.next();
         while (events_.kind() == Kind::kScalar) {
             char key[kMostKeyBytes + 1] = {};
@@ -149,8 +150,10 @@ private:
         const std::string_view text = events_.scalar();
         bool fits = events_.kind() == Kind::kScalar && text.size() <= RigFile::kIdBytes && rig_.id[0] == '\0';
         for (const char c : text)
-            fits = fits && ((c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
-                            || std::strchr("-_.:+", c) != nullptr) && c != '\0';
+            fits = fits &&
+                   ((c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                    std::strchr("-_.:+", c) != nullptr) &&
+                   c != '\0';
         if (!fits)
             return wrong_value(events_, key, "one word of 64 letters, digits or -_.:+ at most");
         text.copy(rig_.id, RigFile::kIdBytes);
@@ -176,15 +179,20 @@ private:
     {
         const char* path = shown_path(name_);
         if (rig_.width == 0 || rig_.height == 0)
-            return failure(Fault::kBadData, "%s: image_width or image_height is missing or 0: add the size that the cameras were "
-                           "calibrated with", path);
+            return failure(Fault::kBadData,
+                           "%s: image_width or image_height is missing or 0: add the size that the cameras were "
+                           "calibrated with",
+                           path);
         if (rig_.width < 1 || rig_.height < 1 || rig_.width > kMaxRigPictureSide || rig_.height > kMaxRigPictureSide)
-            return failure(Fault::kBadData, "%s: image_width x image_height is %d x %d, and each must be 1 to %d: mend the file "
-                           "or calibrate again", path, rig_.width, rig_.height, kMaxRigPictureSide);
+            return failure(Fault::kBadData,
+                           "%s: image_width x image_height is %d x %d, and each must be 1 to %d: mend the file "
+                           "or calibrate again",
+                           path, rig_.width, rig_.height, kMaxRigPictureSide);
         const bool range_known = rig_.near_mm && rig_.far_mm;
-        if ((rig_.near_mm && !(*rig_.near_mm > 0)) || (rig_.far_mm && !(*rig_.far_mm > 0))
-            || (range_known && !(*rig_.far_mm > *rig_.near_mm)))
-            return failure(Fault::kBadData, "%s: near_mm and far_mm must be above 0, and far_mm above near_mm: mend the file", path);
+        if ((rig_.near_mm && !(*rig_.near_mm > 0)) || (rig_.far_mm && !(*rig_.far_mm > 0)) ||
+            (range_known && !(*rig_.far_mm > *rig_.near_mm)))
+            return failure(Fault::kBadData,
+                           "%s: near_mm and far_mm must be above 0, and far_mm above near_mm: mend the file", path);
         return {};
     }
 

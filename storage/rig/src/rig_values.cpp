@@ -58,8 +58,8 @@ Status wrong_value(const YamlEvents& events, std::string_view key, const char* e
 Status wrong_shape(const YamlEvents& events, std::string_view key, const RawMatrix& found, const char* expected)
 {
     char sentence[160];
-    std::snprintf(sentence, sizeof sentence, "%.*s is a %d x %d matrix and must be %s", shown_bytes(key), key.data(), found.rows,
-                  found.columns, expected);
+    std::snprintf(sentence, sizeof sentence, "%.*s is a %d x %d matrix and must be %s", shown_bytes(key), key.data(),
+                  found.rows, found.columns, expected);
     return events.fault(sentence);
 }
 
@@ -75,8 +75,8 @@ Result<double> read_number(YamlEvents& events, std::string_view key)
 Result<int> read_whole(YamlEvents& events, std::string_view key)
 {
     double number = 0;
-    if (events.kind() != Kind::kScalar || !number_of(events.scalar(), number) || std::fabs(number) > 1e9
-        || number != std::floor(number))
+    if (events.kind() != Kind::kScalar || !number_of(events.scalar(), number) || std::fabs(number) > 1e9 ||
+        number != std::floor(number))
         return wrong_value(events, key, "a whole number");
     events.next();
     return static_cast<int>(number);
@@ -108,8 +108,8 @@ Result<RawMatrix> read_matrix(YamlEvents& events, std::string_view key)
     }
     if (events.kind() != Kind::kMapEnd)
         return wrong_value(events, key, "an !!opencv-matrix with rows, cols, dt and data");
-    if (matrix.rows < 1 || matrix.columns < 1 || matrix.rows > RawMatrix::kMostNumbers || matrix.columns > RawMatrix::kMostNumbers
-        || matrix.rows * matrix.columns != matrix.count)
+    if (matrix.rows < 1 || matrix.columns < 1 || matrix.rows > RawMatrix::kMostNumbers ||
+        matrix.columns > RawMatrix::kMostNumbers || matrix.rows * matrix.columns != matrix.count)
         return wrong_value(events, key, "a matrix with as many numbers as rows x cols");
     events.next();
     return matrix;

@@ -69,7 +69,8 @@ int YamlEvents::line() const
 
 Status YamlEvents::fault(const char* what) const
 {
-    return failure(Fault::kBadData, "%s: line %d: %s: mend the file or calibrate again", shown_path(name_), line(), what);
+    return failure(Fault::kBadData, "%s: line %d: %s: mend the file or calibrate again", shown_path(name_), line(),
+                   what);
 }
 
 void YamlEvents::refuse(const char* what)
@@ -86,7 +87,8 @@ void YamlEvents::next()
         has_event_ = yaml_parser_parse(&parser_, &event_) != 0;
         if (!has_event_) {
             const int line = static_cast<int>(parser_.problem_mark.line) + 1 + lines_before_;
-            status_ = failure(Fault::kBadData, "%s: line %d: not YAML (%s): give a rig file as OpenCV's FileStorage writes it",
+            status_ = failure(Fault::kBadData,
+                              "%s: line %d: not YAML (%s): give a rig file as OpenCV's FileStorage writes it",
                               shown_path(name_), line, parser_.problem != nullptr ? parser_.problem : "unreadable");
             kind_ = Kind::kEnd;
             return;

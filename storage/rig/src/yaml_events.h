@@ -15,7 +15,15 @@ namespace dicot {
 class YamlEvents
 {
 public:
-    enum class Kind { kScalar, kListStart, kListEnd, kMapStart, kMapEnd, kEnd };
+    enum class Kind
+    {
+        kScalar,
+        kListStart,
+        kListEnd,
+        kMapStart,
+        kMapEnd,
+        kEnd
+    };
     static constexpr int kMaxDepth = 6;
 
     /// `text` must outlive the reader; a first line that begins with %YAML is passed over, since FileStorage's

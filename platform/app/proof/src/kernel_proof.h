@@ -23,5 +23,6 @@ extern const KernelProof kSupportWeightsProof;
 extern const KernelProof kMatchCostProof;
 extern const KernelProof kAggregateProof;
 extern const KernelProof kNormaliseProof;
+extern const KernelProof kRemapProof;
 
 } // namespace dicot::proof

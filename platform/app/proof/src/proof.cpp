@@ -9,7 +9,8 @@
 namespace dicot::proof {
 namespace {
 
-constexpr std::array kProofs = {&kSupportWeightsProof, &kMatchCostProof, &kAggregateProof, &kNormaliseProof};
+constexpr std::array kProofs = {&kSupportWeightsProof, &kMatchCostProof, &kAggregateProof, &kNormaliseProof,
+                                &kRemapProof};
 
 Verdict& begin_verdict(Report& report, const Kernels& kernels, const KernelProof& proof)
 {

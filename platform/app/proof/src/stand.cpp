@@ -158,7 +158,8 @@ void note_fault(Verdict& verdict, const char* format, ...)
         return;
     va_list arguments;
     va_start(arguments, format);
-    std::vsnprintf(verdict.fault, sizeof verdict.fault, format, arguments); // NOLINT(clang-analyzer-valist.Uninitialized)
+    std::vsnprintf(verdict.fault, sizeof verdict.fault, format,
+                   arguments); // NOLINT(clang-analyzer-valist.Uninitialized)
     va_end(arguments);
 }
 

@@ -17,13 +17,14 @@ struct Viewpoint
 /// Takes what render_cloud() needs for a picture of width x height.
 void lay_out_render(Arena& arena, int width, int height);
 
-/// Draws the points as small squares, each as large as the patch of the scene that its pixel saw (`focal_px` is the focal
-/// length of the rig), nearer over farther, with edges darkened where the depth jumps. The picture frames the middle 98 %
-/// of the cloud. For people: drawn in floating point, and not the same to the last bit on every CPU.
-void render_cloud(const PointCloud& cloud, double focal_px, const Viewpoint& from, ImageView<Rgb8> into, Arena& scratch);
+/// Draws the points as small squares, each as large as the patch of the scene that its pixel saw (`focal_px` is the
+/// focal length of the rig), nearer over farther, with edges darkened where the depth jumps. The picture frames the
+/// middle 98 % of the cloud. For people: drawn in floating point, and not the same to the last bit on every CPU.
+void render_cloud(const PointCloud& cloud, double focal_px, const Viewpoint& from, ImageView<Rgb8> into,
+                  Arena& scratch);
 
-/// Two viewpoints side by side, each in half of `into`: from the left, and from the upper right. `scratch` as laid out for
-/// (width + 1) / 2 x height.
+/// Two viewpoints side by side, each in half of `into`: from the left, and from the upper right. `scratch` as laid out
+/// for (width + 1) / 2 x height.
 void render_two_views(const PointCloud& cloud, double focal_px, ImageView<Rgb8> into, Arena& scratch);
 
 } // namespace dicot

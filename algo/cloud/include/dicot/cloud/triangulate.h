@@ -16,18 +16,18 @@ namespace dicot {
 ///
 /// With D = d + offset in 24 fraction bits and b the baseline in steps:
 ///   Z = f b / D,   X = (x - cx) b / D,   Y = (y - cy) b / D,
-/// each one 64-bit division, rounded to the nearest step, half away from zero. |numerator| <= 2^58, so numerator + D / 2 is
-/// below 2^63. For D >= 1 px and coordinates within 2^20 steps the constants' own rounding moves a result by less than
-/// 1/16 step.
+/// each one 64-bit division, rounded to the nearest step, half away from zero. |numerator| <= 2^58, so numerator + D /
+/// 2 is below 2^63. For D >= 1 px and coordinates within 2^20 steps the constants' own rounding moves a result by less
+/// than 1/16 step.
 struct Triangulation
 {
     static constexpr int kFractionBits = 24;
 
-    std::int64_t depth_q24 = 0;      ///< f b
-    std::int64_t pixel_q24 = 0;      ///< b
-    std::int64_t column_zero_q24 = 0;///< cx b
-    std::int64_t row_zero_q24 = 0;   ///< cy b
-    std::int64_t offset_q24 = 0;     ///< px
+    std::int64_t depth_q24 = 0;       ///< f b
+    std::int64_t pixel_q24 = 0;       ///< b
+    std::int64_t column_zero_q24 = 0; ///< cx b
+    std::int64_t row_zero_q24 = 0;    ///< cy b
+    std::int64_t offset_q24 = 0;      ///< px
     std::int64_t near_steps = 0;
     std::int64_t far_steps = 0;
     CloudGrid grid;
@@ -40,8 +40,8 @@ Result<Triangulation> triangulation_for(const RigGeometry& rig, const WorkingRan
 struct PixelCount
 {
     std::int64_t points = 0;
-    std::int64_t missing = 0;     ///< no disparity
-    std::int64_t beyond = 0;      ///< d + offset <= 0: at infinity or past it
+    std::int64_t missing = 0; ///< no disparity
+    std::int64_t beyond = 0;  ///< d + offset <= 0: at infinity or past it
     std::int64_t too_near = 0;
     std::int64_t too_far = 0;
     std::int64_t outside_grid = 0;
@@ -53,9 +53,9 @@ struct Triangulated
     PixelCount pixels;
 };
 
-/// One point for each pixel of `map` that has a disparity, lies within the working range and on the grid; colour from the
-/// same pixel of `left` (same size as the map), confidence from the map. The points are carved from `arena`, room for
-/// every pixel; with a measuring arena, or one that is too small, the cloud is empty (see Arena::overrun).
+/// One point for each pixel of `map` that has a disparity, lies within the working range and on the grid; colour from
+/// the same pixel of `left` (same size as the map), confidence from the map. The points are carved from `arena`, room
+/// for every pixel; with a measuring arena, or one that is too small, the cloud is empty (see Arena::overrun).
 Triangulated triangulate(const DisparityMap& map, ImageView<const Rgb8> left, const Triangulation& how, Arena& arena);
 
 } // namespace dicot

@@ -39,8 +39,8 @@ Status check_range(const WorkingRange& range);
 Result<DisparityRange> disparity_range(const RigGeometry& rig, const WorkingRange& range);
 
 /// The grid that holds every point that the left camera can see between near and far: 0.1 mm steps, its least corner at
-/// the least corner of that frustum, and as many bits as the frustum needs, kMinGridBits at least. It depends on rig and
-/// range only, so all snapshots of a rig share it. Refused when the frustum needs more than kMaxGridBits.
+/// the least corner of that frustum, and as many bits as the frustum needs, kMinGridBits at least. It depends on rig
+/// and range only, so all snapshots of a rig share it. Refused when the frustum needs more than kMaxGridBits.
 Result<CloudGrid> grid_for(const RigGeometry& rig, const WorkingRange& range);
 
 } // namespace dicot

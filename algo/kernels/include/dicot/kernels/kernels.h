@@ -80,16 +80,34 @@ struct CostRow
 /// One group of two window rows, for a strip of pixels.
 struct AggregateStrip
 {
-    const PairU16* left_weights;   ///< [columns][left_stride]: weight of window column c for pixel i, Q15
-    const PairU16* right_weights;  ///< [columns][right_stride]: the same for position i + r, Q14
-    const PairU16* costs;          ///< [pixels + columns - 1][disparities]: cost at window column c of pixel i is row i + c
-    std::uint32_t* numerator;      ///< [pixels][disparities], added to
-    std::uint32_t* denominator;    ///< [pixels][disparities], added to
-    int left_stride;               ///< words
-    int right_stride;              ///< words, at least pixels + disparities - 1
-    int columns;                   ///< 1 .. kMaxWindow
-    int pixels;                    ///< any number, 0 too
-    int disparities;               ///< a multiple of kLanes
+    const PairU16* left_weights;  ///< [columns][left_stride]: weight of window column c for pixel i, Q15
+    const PairU16* right_weights; ///< [columns][right_stride]: the same for position i + r, Q14
+    const PairU16* costs;     ///< [pixels + columns - 1][disparities]: cost at window column c of pixel i is row i + c
+    std::uint32_t* numerator; ///< [pixels][disparities], added to
+    std::uint32_t* denominator; ///< [pixels][disparities], added to
+    int left_stride;            ///< words
+    int right_stride;           ///< words, at least pixels + disparities - 1
+    int columns;                ///< 1 .. kMaxWindow
+    int pixels;                 ///< any number, 0 too
+    int disparities;            ///< a multiple of kLanes
+};
+
+/// Where one cell of a row of a rectified picture comes from: pixel u of the cell from (x + u dx, y + u dy), in px of
+/// the source picture with kRemapFraction fraction bits.
+struct RemapSpan
+{
+    std::int32_t x, y, dx, dy;
+};
+inline constexpr int kRemapFraction = 16;
+/// The fraction bits that interpolation uses.
+inline constexpr int kRemapWeightBits = 7;
+
+/// A colour picture: 3 bytes a pixel, at least 3 x 2 px, (height - 1) * stride_bytes + 3 * width < 2^31.
+struct RemapSource
+{
+    const std::uint8_t* rgb;
+    std::int32_t stride_bytes;
+    std::int32_t width, height;
 };
 
 /// The table of function pointers. Pointers may be unaligned to more than their type unless said otherwise; input and
@@ -112,7 +130,8 @@ struct Kernels
     ///   out[(i * disparities + r) * 2] = difference[|dR| + |dG| + |dB|] + census[popcount(left ^ right)]
     /// with left pixel i and right pixel i + r. Every second uint16 is left alone (the other row of the group).
     /// `disparities` is a multiple of kLanes.
-    void (*match_cost)(std::uint16_t* out, int n, int disparities, CostRow left, CostRow right, const CostTables& tables);
+    void (*match_cost)(std::uint16_t* out, int n, int disparities, CostRow left, CostRow right,
+                       const CostTables& tables);
 
     /// Eq. 13 without the division, for one group of window rows: for pixel i, position r and every window column c
     ///   w = round_q15(left_weights[c][i] * right_weights[c][i + r])       (both halves; w <= kRightWeightOne)
@@ -124,6 +143,14 @@ struct Kernels
     /// Eq. 13's division: out[i] = floor(numerator[i] * 256 / denominator[i]). Domain: 0 < denominator[i] < 2^31,
     /// numerator[i] <= kCostMax * denominator[i], so out[i] <= 256 * kCostMax.
     void (*normalise)(std::uint16_t* out, const std::uint32_t* numerator, const std::uint32_t* denominator, int n);
+
+    /// One row of a rectified colour picture: `n` pixels, 3 bytes each, in cells of 2^cell_log2 px (cell_log2 is 2 or
+    /// 3). With (x, y) as RemapSpan says (|x|, |y| < 2^31 - 2^8 for every pixel of a cell that is begun),
+    ///   X = (x + 2^8) >> 9, Y alike: px with kRemapWeightBits fraction bits
+    /// and a = X mod 128, b = Y mod 128, each channel is
+    ///   ((128 - b) ((128 - a) p[0][0] + a p[0][1]) + b ((128 - a) p[1][0] + a p[1][1]) + 2^13) >> 14
+    /// of the four source pixels around; it is 0 where X or Y is below 0 or above 128 (side - 1).
+    void (*remap_row)(std::uint8_t* rgb, int n, const RemapSpan* spans, int cell_log2, const RemapSource& source);
 };
 static_assert(256 * kCostMax < 0xFFFF, "0xFFFF is free to mean: no candidate");
 

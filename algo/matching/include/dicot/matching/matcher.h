@@ -31,11 +31,11 @@ struct MatchOptions
     int min_disparity = 0; ///< its start, px, may be negative
     MatchMethod method = MatchMethod::kStandard;
     MatchCost cost = MatchCost::kAdCensus;
-    int window = 35;          ///< support window, px, odd, 3 .. kMaxWindow
-    double gamma_color = 6;   ///< eq. 6, CIELAB units
-    double gamma_space = 17;  ///< eq. 6, px
-    bool dense = false;       ///< a value for every pixel: what fails a check is filled from its neighbours
-    int band_rows = 0;        ///< rows that one worker does in one go; 0: as even as possible. Never changes the result.
+    int window = 35;         ///< support window, px, odd, 3 .. kMaxWindow
+    double gamma_color = 6;  ///< eq. 6, CIELAB units
+    double gamma_space = 17; ///< eq. 6, px
+    bool dense = false;      ///< a value for every pixel: what fails a check is filled from its neighbours
+    int band_rows = 0;       ///< rows that one worker does in one go; 0: as even as possible. Never changes the result.
 };
 
 /// Where the time of one match went, in nanoseconds of the first worker; zero without a clock.
@@ -81,7 +81,8 @@ public:
                                 Arena& arena);
 
     /// Matches one pair of the matcher's size. Uses at most `workers` tasks of the crew. Cannot fail.
-    MatchOutcome match(ImageView<const Rgb8> left, ImageView<const Rgb8> right, Crew& crew, const MatchHooks& hooks = {});
+    MatchOutcome match(ImageView<const Rgb8> left, ImageView<const Rgb8> right, Crew& crew,
+                       const MatchHooks& hooks = {});
 
     const MatchOptions& options() const { return options_; }
     /// Products of eq. 13 that one match computes: window pixels x pixels x disparities.

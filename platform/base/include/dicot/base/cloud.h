@@ -8,7 +8,8 @@
 
 namespace dicot {
 
-/// A rectified stereo rig: what turns a disparity into a distance. Lengths in mm, the rest in px of the rectified picture.
+/// A rectified stereo rig: what turns a disparity into a distance. Lengths in mm, the rest in px of the rectified
+/// picture.
 ///
 /// Z = focal_px * baseline_mm / (d + disparity_offset_px), X = (x - cx_px) Z / focal_px, Y = (y - cy_px) Z / focal_px
 /// (equations 16 to 18 of the paper, with principal points). disparity_offset_px = cx_right - cx_left.
@@ -33,13 +34,13 @@ struct CloudPoint
 };
 static_assert(sizeof(CloudPoint) == 16);
 
-/// The fixed grid that positions lie on: coordinate = origin + index steps, 0 <= index < 2^bits. Chosen from the working range, never from
-/// the points, so that every snapshot of a rig has the same one.
+/// The fixed grid that positions lie on: coordinate = origin + index steps, 0 <= index < 2^bits. Chosen from the
+/// working range, never from the points, so that every snapshot of a rig has the same one.
 struct CloudGrid
 {
-    std::int32_t step_um = 100;        ///< 0.1 mm
-    int bits = 14;                     ///< an axis spans 2^bits - 1 steps
-    std::int32_t origin[3] = {0, 0, 0};///< in steps: the least x, y, z that the grid holds
+    std::int32_t step_um = 100;         ///< 0.1 mm
+    int bits = 14;                      ///< an axis spans 2^bits - 1 steps
+    std::int32_t origin[3] = {0, 0, 0}; ///< in steps: the least x, y, z that the grid holds
 };
 
 /// A borrowed cloud. Every point lies inside the grid.

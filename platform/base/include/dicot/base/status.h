@@ -10,18 +10,19 @@
 namespace dicot {
 
 /// Why something failed. The numbers are the process exit codes of sysexits(3); `kOk` is 0.
-enum class Fault : int {
+enum class Fault : int
+{
     kOk = 0,
-    kUsage = 64,       ///< the call's words are wrong
-    kBadData = 65,     ///< an input file is damaged, or does not fit the other inputs
-    kNoInput = 66,     ///< an input file is missing or cannot be read
-    kUnavailable = 69, ///< a device or a service is not there
-    kSoftware = 70,    ///< a fault of dicot itself
-    kOsError = 71,     ///< the operating system refused (memory, threads)
-    kCannotCreate = 73,///< an output file cannot be created
-    kIoError = 74,     ///< reading or writing failed half-way (full disk, dead card)
-    kTryAgain = 75,    ///< a passing fault: the same call may succeed later
-    kConfig = 78,      ///< the configuration is wrong, or asks for more than the budget
+    kUsage = 64,        ///< the call's words are wrong
+    kBadData = 65,      ///< an input file is damaged, or does not fit the other inputs
+    kNoInput = 66,      ///< an input file is missing or cannot be read
+    kUnavailable = 69,  ///< a device or a service is not there
+    kSoftware = 70,     ///< a fault of dicot itself
+    kOsError = 71,      ///< the operating system refused (memory, threads)
+    kCannotCreate = 73, ///< an output file cannot be created
+    kIoError = 74,      ///< reading or writing failed half-way (full disk, dead card)
+    kTryAgain = 75,     ///< a passing fault: the same call may succeed later
+    kConfig = 78,       ///< the configuration is wrong, or asks for more than the budget
 };
 
 /// A fault and one sentence for a person: what went wrong, with which file, and the remedy. No heap.
@@ -100,12 +101,21 @@ private:
 };
 
 namespace detail {
-inline const Status& status_of(const Status& status) { return status; }
+inline const Status& status_of(const Status& status)
+{
+    return status;
+}
 template <typename T>
-const Status& status_of(const Result<T>& result) { return result.status(); }
+const Status& status_of(const Result<T>& result)
+{
+    return result.status();
+}
 inline void value_of(Status&&) {}
 template <typename T>
-T value_of(Result<T>&& result) { return std::move(result).value(); }
+T value_of(Result<T>&& result)
+{
+    return std::move(result).value();
+}
 } // namespace detail
 
 } // namespace dicot

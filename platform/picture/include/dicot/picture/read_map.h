@@ -32,7 +32,8 @@ Result<MapHead> map_head(const char* path) noexcept;
 /// Reads a whole map into `into`, which has the size that map_head() told: disparities in px, rows from the top,
 /// +infinity where there is none.
 ///
-/// - PFM ("Pf"): either byte order, told by the sign of the scale, whose size is ignored as the benchmarks do. +infinity
+/// - PFM ("Pf"): either byte order, told by the sign of the scale, whose size is ignored as the benchmarks do.
+/// +infinity
 ///   is missing; NaN and -infinity are refused.
 /// - PNG: value / png_scale, 0 is missing; png_scale > 0.
 ///

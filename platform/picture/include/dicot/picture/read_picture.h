@@ -10,7 +10,7 @@
 
 namespace dicot {
 
-inline constexpr int kMaxPictureSide = 16384;                       ///< px
+inline constexpr int kMaxPictureSide = 16384;                                     ///< px
 inline constexpr std::int64_t kMaxPicturePixels = std::int64_t{64} * 1024 * 1024; ///< px
 
 struct PictureSize

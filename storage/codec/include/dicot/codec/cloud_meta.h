@@ -8,14 +8,14 @@
 
 namespace dicot {
 
-/// What is not known stays empty and is not written. Unit ("m") and frame ("rectified-left x-right y-down z-forward") are
-/// always the same and always written; the grid is written too (storage/FORMAT.md).
+/// What is not known stays empty and is not written. Unit ("m") and frame ("rectified-left x-right y-down z-forward")
+/// are always the same and always written; the grid is written too (storage/FORMAT.md).
 struct CloudMeta
 {
     using Text = ShortText<95>;
 
-    Text captured_at;    ///< ISO 8601, UTC
-    Text clock_trust;    ///< how far captured_at can be trusted
+    Text captured_at; ///< ISO 8601, UTC
+    Text clock_trust; ///< how far captured_at can be trusted
     Text device_id;
     Text calibration_id; ///< id of the rig file
     Text software;

@@ -20,14 +20,14 @@ struct CloudProof
     std::uint32_t points = 0;
     std::int32_t least[3] = {}; ///< bounds of the decoded points, in grid steps
     std::int32_t most[3] = {};
-    double worst_error_um = 0;  ///< largest distance along an axis between a decoded float32 and its grid position
+    double worst_error_um = 0; ///< largest distance along an axis between a decoded float32 and its grid position
 };
 
 struct EncodedCloud
 {
     std::span<const std::byte> bytes; ///< the file, lying at the start of the lent heap
     CloudProof proof;
-    std::size_t heap_peak_bytes = 0;  ///< what encoding and proof used of the heap (0 where operator new is not gated)
+    std::size_t heap_peak_bytes = 0; ///< what encoding and proof used of the heap (0 where operator new is not gated)
 };
 
 /// The heap that encode_cloud() needs for a cloud of `points` points, whatever they are.

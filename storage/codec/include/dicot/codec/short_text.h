@@ -20,7 +20,8 @@ public:
     {
         std::copy_n(text.data(), size_, bytes_);
     }
-    constexpr ShortText(const char* text) noexcept : ShortText(std::string_view{text}) {} // NOLINT(google-explicit-constructor)
+    constexpr ShortText(const char* text) noexcept
+        : ShortText(std::string_view{text}) {} // NOLINT(google-explicit-constructor)
 
     constexpr bool empty() const noexcept { return size_ == 0; }
     constexpr const char* c_str() const noexcept { return bytes_; }

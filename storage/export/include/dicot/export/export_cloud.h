@@ -7,8 +7,8 @@
 
 namespace dicot {
 
-/// PLY 1.0, binary little-endian: x y z float (metres), red green blue uchar, confidence float (0..1); comments give unit,
-/// frame and what else `meta` knows. Durable or absent.
+/// PLY 1.0, binary little-endian: x y z float (metres), red green blue uchar, confidence float (0..1); comments give
+/// unit, frame and what else `meta` knows. Durable or absent.
 Status write_ply(const char* path, const PointCloud& cloud, const CloudMeta& meta);
 
 /// PCD 0.7, binary: x y z float (metres), rgb packed into a float as PCL expects it, confidence float (0..1).

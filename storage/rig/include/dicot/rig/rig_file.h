@@ -48,18 +48,18 @@ struct RigFile
     int height = 0;
     RigCamera left;
     RigCamera right;
-    std::optional<Matrix<3, 3>> rotation;           ///< R
+    std::optional<Matrix<3, 3>> rotation;                ///< R
     std::optional<std::array<double, 3>> translation_mm; ///< T
-    std::optional<Matrix<4, 4>> reprojection;       ///< Q: mm from px
+    std::optional<Matrix<4, 4>> reprojection;            ///< Q: mm from px
     std::optional<double> near_mm;
     std::optional<double> far_mm;
 
     friend bool operator==(const RigFile&, const RigFile&) = default;
 };
 
-/// Reads a rig file from bytes that may come from anywhere; `name` stands in the sentences. Every number is finite, every
-/// matrix has its shape, image_width and image_height are there and sane, near is below far; nothing else is required yet.
-/// Fault::kBadData otherwise.
+/// Reads a rig file from bytes that may come from anywhere; `name` stands in the sentences. Every number is finite,
+/// every matrix has its shape, image_width and image_height are there and sane, near is below far; nothing else is
+/// required yet. Fault::kBadData otherwise.
 Result<RigFile> parse_rig(std::span<const std::byte> text, const char* name);
 
 /// Reads the file at `path`. Fault::kNoInput: missing or unreadable. Allocates: for start-up only.

@@ -41,7 +41,7 @@ public:
     std::span<const Verdict> verdicts() const { return {verdicts_.data(), count_}; }
     /// At least one verdict, and every one proven.
     bool passed() const;
-    /// The next verdict to fill. There are never more than kMost: four kernels a level.
+    /// The next verdict to fill. There are never more than kMost: five kernels a level.
     Verdict& add() { return verdicts_.at(count_++); }
 
 private:

@@ -1,0 +1,201 @@
+#include "dicot/calibration/quality.h"
+
+#include "bundle.h"
+#include "held_out.h"
+#include "words.h"
+
+#include "dicot/calibration/camera.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dicot::calibration {
+
+namespace {
+
+constexpr std::array<double, 3> kDistances_mm{500, 800, 1000};
+
+// Gates, from good to usable to redo.
+constexpr int kGoodPairs = 10;
+constexpr int kUsablePairs = 6;
+constexpr double kGoodEpipolar_px = 0.25;
+constexpr double kUsableEpipolar_px = 0.6;
+constexpr double kGoodDepth_percent = 0.3; // of the distance
+constexpr double kUsableDepth_percent = 1.5;
+constexpr double kGoodCoverage = 0.55;
+constexpr double kUsableCoverage = 0.25;
+
+void count_coverage(const CalibrationTask& task, const StereoCalibration& calibration, Quality& quality)
+{
+    const auto count = [&](Coverage& coverage, const std::vector<Point2>& corners) {
+        for (const Point2& p : corners) {
+            const int col =
+                std::clamp(static_cast<int>((p.x + 0.5) * kCoverageCols / task.width), 0, kCoverageCols - 1);
+            const int row =
+                std::clamp(static_cast<int>((p.y + 0.5) * kCoverageRows / task.height), 0, kCoverageRows - 1);
+            ++coverage.corners[static_cast<std::size_t>(row * kCoverageCols + col)];
+        }
+    };
+    for (std::size_t v = 0; v < task.views.size(); ++v)
+        if (calibration.views[v].used) {
+            count(quality.left, task.views[v].left);
+            count(quality.right, task.views[v].right);
+        }
+    for (Coverage* coverage : {&quality.left, &quality.right})
+        coverage->share = static_cast<double>(std::count_if(coverage->corners.begin(), coverage->corners.end(),
+                                                            [](int corners) { return corners > 0; })) /
+                          (kCoverageCols * kCoverageRows);
+}
+
+void count_distances(const CalibrationTask& task, const StereoCalibration& calibration, const WorkingRange& range,
+                     Quality& quality)
+{
+    bool first = true;
+    for (std::size_t v = 0; v < task.views.size(); ++v) {
+        const ViewOutcome& outcome = calibration.views[v];
+        if (!outcome.used)
+            continue;
+        const Board& board = task.boards[static_cast<std::size_t>(task.views[v].board)];
+        for (const int col : {0, board.cols - 1})
+            for (const int row : {0, board.rows - 1}) {
+                const Eigen::Vector3d p = board_point(board, Eigen::Vector2d::Zero(), col, row);
+                const double z =
+                    outcome.turn[6] * p.x() + outcome.turn[7] * p.y() + outcome.turn[8] * p.z() + outcome.shift_mm.z;
+                quality.nearest_mm = first ? z : std::min(quality.nearest_mm, z);
+                quality.farthest_mm = first ? z : std::max(quality.farthest_mm, z);
+                first = false;
+            }
+        const double share = (outcome.shift_mm.z - range.near_mm) / (range.far_mm - range.near_mm);
+        if (share >= 0 && share <= 1)
+            ++quality.boards_by_distance[static_cast<std::size_t>(
+                std::min(static_cast<int>(share * kDistanceBins), kDistanceBins - 1))];
+    }
+}
+
+void measure_epipolar(const CalibrationTask& task, const StereoCalibration& calibration, Quality& quality)
+{
+    std::vector<double> distances;
+    double squares = 0;
+    for (std::size_t v = 0; v < task.views.size(); ++v) {
+        const View& view = task.views[v];
+        if (!calibration.views[v].used || view.left.empty() || view.right.empty())
+            continue;
+        for (std::size_t k = 0; k < view.left.size(); ++k)
+            if (const auto d = epipolar_distance_px(calibration.rig, view.left[k], view.right[k])) {
+                distances.push_back(*d);
+                squares += *d * *d;
+            }
+    }
+    if (distances.empty())
+        return;
+    quality.epipolar_rms_px = std::sqrt(squares / static_cast<double>(distances.size()));
+    const auto at = distances.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(distances.size() - 1));
+    std::nth_element(distances.begin(), at, distances.end());
+    quality.epipolar_p95_px = *at;
+}
+
+/// The regions of the picture without a corner, in words.
+std::string empty_regions(const Coverage& coverage)
+{
+    const auto empty_share = [&](int col0, int col1, int row0, int row1) {
+        int empty = 0;
+        for (int row = row0; row < row1; ++row)
+            for (int col = col0; col < col1; ++col)
+                empty += coverage.corners[static_cast<std::size_t>(row * kCoverageCols + col)] == 0 ? 1 : 0;
+        return static_cast<double>(empty) / ((col1 - col0) * (row1 - row0));
+    };
+    struct Region
+    {
+        const char* name;
+        double empty;
+    };
+    const std::array<Region, 4> regions{{{"left", empty_share(0, 2, 0, kCoverageRows)},
+                                         {"right", empty_share(kCoverageCols - 2, kCoverageCols, 0, kCoverageRows)},
+                                         {"upper", empty_share(0, kCoverageCols, 0, 2)},
+                                         {"lower", empty_share(0, kCoverageCols, kCoverageRows - 2, kCoverageRows)}}};
+    std::string names;
+    for (const Region& region : regions)
+        if (region.empty > 0.5)
+            names += (names.empty() ? "" : ", ") + std::string(region.name);
+    return names;
+}
+
+void judge(const StereoCalibration& calibration, const WorkingRange& range, Quality& quality)
+{
+    int worst = 0;
+    const auto gate = [&](bool good, bool usable, std::string advice) {
+        if (good)
+            return;
+        worst = std::max(worst, usable ? 1 : 2);
+        // What forbids the use comes first.
+        quality.advice.insert(usable ? quality.advice.end() : quality.advice.begin(), std::move(advice));
+    };
+    gate(
+        quality.epipolar_rms_px <= kGoodEpipolar_px, quality.epipolar_rms_px <= kUsableEpipolar_px,
+        text("rows of the two pictures miss each other by %.2f px: take sharp pictures at the same moment, with a flat "
+             "board",
+             quality.epipolar_rms_px));
+    for (const DepthError& depth : quality.depth)
+        if (depth.distance_mm == 800) {
+            const double percent = 100 * depth.calibration_mm / depth.distance_mm;
+            gate(
+                percent <= kGoodDepth_percent, percent <= kUsableDepth_percent,
+                text("depth at %.0f mm is uncertain by %.1f mm: take more pairs, the board tilted by 20 to 40 degrees, "
+                     "near and far",
+                     depth.distance_mm, depth.calibration_mm));
+        }
+    gate(quality.held_out_size_percent <= kGoodDepth_percent, quality.held_out_size_percent <= kUsableDepth_percent,
+         text("boards that were held out come out %.2f %% wrong in size: take more pairs at different distances and "
+              "tilts",
+              quality.held_out_size_percent));
+    gate(calibration.pairs_used >= kGoodPairs, calibration.pairs_used >= kUsablePairs,
+         text("%d pairs were used: take at least %d, better 15 to 25", calibration.pairs_used, kGoodPairs));
+    const Coverage& thinner = quality.left.share < quality.right.share ? quality.left : quality.right;
+    const std::string regions = empty_regions(thinner);
+    gate(thinner.share >= kGoodCoverage, thinner.share >= kUsableCoverage,
+         text("corners reach only %.0f %% of the %s picture: show the board %s%s%s too", 100 * thinner.share,
+              &thinner == &quality.left ? "left" : "right", regions.empty() ? "near all borders" : "in its ",
+              regions.c_str(), regions.empty() ? "" : " part"));
+    constexpr std::array<const char*, kDistanceBins> kThirds{"near", "middle", "far"};
+    for (std::size_t bin = 0; bin < kDistanceBins; ++bin) {
+        const double from = range.near_mm + static_cast<double>(bin) * (range.far_mm - range.near_mm) / kDistanceBins;
+        gate(quality.boards_by_distance[bin] > 0, true,
+             text("no board stood in the %s third of the working range (%.0f to %.0f mm)", kThirds[bin], from,
+                  from + (range.far_mm - range.near_mm) / kDistanceBins));
+    }
+    quality.verdict = worst == 0 ? Verdict::kGood : worst == 1 ? Verdict::kUsable : Verdict::kRedo;
+}
+
+} // namespace
+
+const char* name_of(Verdict verdict)
+{
+    switch (verdict) {
+    case Verdict::kGood:
+        return "good";
+    case Verdict::kUsable:
+        return "usable";
+    case Verdict::kRedo:
+        return "redo";
+    }
+    return "";
+}
+
+Quality assess(const CalibrationTask& task, const StereoCalibration& calibration, const WorkingRange& range)
+{
+    Quality quality;
+    const HeldOut held_out = cross_validate(task, calibration, kFolds);
+    quality.held_out_mm = held_out.shape_mm;
+    quality.held_out_depth_mm = held_out.depth_mm;
+    quality.held_out_size_percent = held_out.size_percent;
+    quality.held_out_pairs = held_out.pairs;
+    measure_epipolar(task, calibration, quality);
+    for (const double distance_mm : kDistances_mm)
+        quality.depth.push_back(predict_depth_error(calibration, distance_mm));
+    count_coverage(task, calibration, quality);
+    count_distances(task, calibration, range, quality);
+    judge(calibration, range, quality);
+    return quality;
+}
+
+} // namespace dicot::calibration
