@@ -26,12 +26,14 @@ for arch in arm64 armhf; do
         echo "neon_cost.sh: $kernels is missing; run tests/system/cross_test.sh first" >&2
         exit 66
     fi
-    $triple-g++ --sysroot="$sysroot" -std=c++20 -O2 -I"$checkout/algo/kernels/include" \
+    "$triple-g++" --sysroot="$sysroot" -std=c++20 -O2 -I"$checkout/algo/kernels/include" \
         -o "$work/alone-$arch" "$checkout/tests/bench/kernel_alone.cpp" "$kernels"
     for kernel in aggregate support_weights match_cost normalise; do
         line=$(printf '%-7s%-17s' $arch $kernel)
         for level in neon scalar; do
+            # shellcheck disable=SC2086 # the emulator is a command with its words
             few=$(count $emulator "$sysroot" "$work/alone-$arch" $level $kernel 2)
+            # shellcheck disable=SC2086
             many=$(count $emulator "$sysroot" "$work/alone-$arch" $level $kernel 12)
             units=$(cat "$work/units")
             each=$(awk -v few="$few" -v many="$many" -v units="$units" 'BEGIN { printf "%.3f", (many - few) / (10 * units) }')

@@ -25,6 +25,7 @@ if [ "$(cat "$sysroot/recipe" 2>/dev/null)" = "$recipe" ]; then
 fi
 
 # The same archive that this machine installs from.
+# shellcheck disable=SC2016 # apt-get's own words in the format
 mirror=$(apt-get indextargets --format '$(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' |
     awk -v release="$release" '$2 == release && $3 == "main" { print $1; exit }')
 if [ -z "$mirror" ]; then
