@@ -27,12 +27,14 @@ std::vector<float> gaussian(double sigma_px)
 {
     const int radius = std::max(1, static_cast<int>(3.0 * sigma_px + 0.5));
     std::vector<double> exact;
+    exact.reserve(static_cast<std::size_t>(2 * radius + 1));
     double sum = 0;
     for (int i = -radius; i <= radius; ++i) {
         exact.push_back(exact_exp(-0.5 * i * i / (sigma_px * sigma_px)));
         sum += exact.back();
     }
     std::vector<float> kernel;
+    kernel.reserve(exact.size());
     for (const double weight : exact)
         kernel.push_back(static_cast<float>(weight / sum));
     return kernel;

@@ -115,7 +115,7 @@ std::string explain_picture(ImageView<const std::uint8_t> grey)
 
 std::string explain_miss(const Lattice& best, bool larger_board, const Board& board, int width, int height)
 {
-    const std::string nothing =
+    std::string nothing =
         text("no chessboard of %d x %d inner corners found; is it whole in the picture, sharp and evenly lit?",
              board.cols, board.rows);
     if (static_cast<double>(best.size()) < kFewShare * board.corner_count())

@@ -34,7 +34,8 @@ double fold_radius(const CameraModel& camera)
 {
     constexpr double kStep = 1.0 / 256;
     double before = 0;
-    for (double r = kStep; r <= kWidestRadius; r += kStep) {
+    for (int i = 1; i * kStep <= kWidestRadius; ++i) {
+        const double r = i * kStep;
         const double now = r * radial(camera, r * r);
         if (!(now > before))
             return r - kStep;

@@ -9,13 +9,15 @@ namespace dicot {
 class TaskRef
 {
 public:
+    // clang-format off
     template <typename F>
-    requires(!std::is_same_v<std::remove_cvref_t<F>, TaskRef>) TaskRef(F&& f)
-    noexcept // NOLINT(google-explicit-constructor,bugprone-forwarding-reference-overload)
+        requires(!std::is_same_v<std::remove_cvref_t<F>, TaskRef>)
+    TaskRef(F&& f) noexcept // NOLINT(google-explicit-constructor,bugprone-forwarding-reference-overload)
         : object_(const_cast<void*>(static_cast<const void*>(&f))),
           call_([](void* object, int index) { (*static_cast<std::remove_reference_t<F>*>(object))(index); })
     {
     }
+    // clang-format on
     void operator()(int index) const { call_(object_, index); }
 
 private:
