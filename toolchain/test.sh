@@ -3,6 +3,7 @@
 #
 #   sh toolchain/test.sh             everything: about 25 minutes on two processors
 #   sh toolchain/test.sh --quick     the release build's tests and the rules of the house
+#   sh toolchain/test.sh STAGE ...   some of: release house accuracy lint clang asan tsan fuzz cross
 #
 # The last line says "N passed, N failed"; the exit code is 0 only if none failed. A stage that does not build, or that
 # runs no test at all, counts as a failure. Logs: .build/test-logs.
@@ -16,14 +17,21 @@ failed=0
 summary=
 not_run=
 
+all_stages="release house accuracy lint clang asan tsan fuzz cross"
 case ${1:-} in
-    '') quick=false ;;
-    --quick) quick=true ;;
-    *)
-        echo "test.sh: '$1' is no option; there is --quick" >&2
-        exit 64
-        ;;
+    '') stages=$all_stages ;;
+    --quick) stages="release house" ;;
+    *) stages=$* ;;
 esac
+for name in $stages; do
+    case " $all_stages " in
+        *" $name "*) ;;
+        *)
+            echo "test.sh: '$name' is no stage: choose among $all_stages, or --quick" >&2
+            exit 64
+            ;;
+    esac
+done
 
 # Runs a stage: its function sets stage_passed, stage_failed and stage_skipped.
 stage() { # name, function, its words
@@ -106,6 +114,7 @@ release() {
 
 # Alone, and with the figures on the screen.
 accuracy() {
+    build release || return
     count_ctest .build/release -L accuracy -V || return
     sed -nE 's/^[0-9]+: //p' "$ctest_log" | grep -aE '%|\||mean|error rates' | grep -av '^\[' | sed 's/^/    /'
     return 0
@@ -123,9 +132,12 @@ lint() {
 }
 
 shellcheck_all() {
-    # -x: packages.sh is sourced; SC1091: by a path that only the running script knows.
-    find toolchain tests -name '*.sh' -exec shellcheck -s sh -x -e SC1091 '{}' + && shellcheck .ci/run && echo "ok      shellcheck" ||
+    if find toolchain tests -name '*.sh' -exec shellcheck -s sh -S warning -x -e SC1091 '{}' + &&
+        shellcheck .ci/run; then
+        echo "ok      shellcheck"
+    else
         echo "FAILED  shellcheck"
+    fi
 }
 
 clang() {
@@ -149,6 +161,7 @@ fuzz() {
 }
 
 cross() {
+    build release dicot || return
     pair=../shared/data/plants/aloe-third
     if [ -f "$pair/left.png" ] && [ -f "$pair/right.png" ]; then
         set -- "$pair/left.png" "$pair/right.png"
@@ -160,24 +173,20 @@ cross() {
     count_lines sh tests/system/cross_test.sh .build/release/platform/app/dicot "$@" || return
 }
 
+purposes="build quickstart test"
+for name in $stages; do
+    case $name in
+        lint) purposes="$purposes clang lint" ;;
+        clang | fuzz) purposes="$purposes clang" ;;
+        cross) purposes="$purposes cross" ;;
+    esac
+done
 mkdir -p "$logs"
-if $quick; then
-    dicot_install build quickstart test || exit
-else
-    dicot_install build quickstart test clang lint cross || exit
-fi
-
-stage release release
-stage house house
-if ! $quick; then
-    stage accuracy accuracy
-    stage lint lint
-    stage clang clang
-    stage asan asan
-    stage tsan tsan
-    stage fuzz fuzz
-    stage cross cross
-fi
+# shellcheck disable=SC2086 # a list of words
+dicot_install $purposes || exit
+for name in $stages; do
+    stage "$name" "$name"
+done
 
 echo
 [ -z "$not_run" ] || printf '%s\n' "$not_run"

@@ -3,8 +3,8 @@
 #
 #   sh tests/lint/tidy.sh BUILD_FOLDER [FILE ...]
 #
-# Without files: the sources of the program but for platform/app and tests. Those include the headers of CLI11,
-# nlohmann/json and GoogleTest, which take half a minute a file; name them to have them checked.
+# Without files: the sources of the program but for platform/app, algo/calibration and tests. Those include CLI11,
+# nlohmann/json, Eigen and GoogleTest, which take half a minute a file; name them to have them checked.
 set -u
 cd "$(dirname "$0")/../.." || exit 70
 build=${1:?tidy.sh: name a build folder with compile_commands.json, such as .build/clang}
@@ -15,7 +15,7 @@ if [ ! -f "$build/compile_commands.json" ]; then
 fi
 if [ $# = 0 ]; then
     # Vector kernels of another architecture are in no build of this machine.
-    for file in $(find platform algo storage drivers -path platform/app -prune -o -name '*.cpp' -print | sort); do
+    for file in $(find platform algo storage drivers \( -path platform/app -o -path algo/calibration \) -prune -o -name '*.cpp' -print | sort); do
         ! grep -qF "/$file\"" "$build/compile_commands.json" || set -- "$@" "$file"
     done
 fi
