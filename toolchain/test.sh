@@ -151,7 +151,7 @@ asan() {
 }
 
 tsan() {
-    build tsan thread_tests || return
+    build tsan threads_tests || return
     count_ctest .build/tsan -j "$(nproc)" -L threads || return
 }
 

@@ -1,8 +1,10 @@
 // dicot match: a rectified pair in, a disparity map out.
 #include "commands.h"
+#include "distinct_files.h"
 #include "match_bench.h"
 #include "match_words.h"
 #include "progress.h"
+#include "sealed_heap.h"
 
 #include "dicot/os/clock.h"
 #include "dicot/os/output_file.h"
@@ -36,17 +38,24 @@ enum class MapFormat
 constexpr int kPngScale = 256;
 constexpr int kPngLargest = 65535;
 
-Result<MapFormat> format_of(const std::string& path, const MatchOptions& options)
+Result<MapFormat> format_of(const std::string& path)
 {
     const auto ends_with = [&](const char* ending) { return CLI::detail::to_lower(path).ends_with(ending); };
     if (ends_with(".pfm"))
         return MapFormat::kPfm;
-    if (!ends_with(".png"))
-        return failure(Fault::kUsage, "%s: the name must end in .pfm or .png", path.c_str());
-    if (options.min_disparity < 0 || (options.min_disparity + options.disparities) * kPngScale > kPngLargest)
+    if (ends_with(".png"))
+        return MapFormat::kPng16;
+    return failure(Fault::kUsage, "%s: the name must end in .pfm or .png", path.c_str());
+}
+
+/// `options` have passed Matcher::check().
+Status check_holds(const std::string& path, MapFormat format, const MatchOptions& options)
+{
+    if (format == MapFormat::kPng16 &&
+        (options.min_disparity < 0 || (options.min_disparity + options.disparities) * kPngScale > kPngLargest))
         return failure(Fault::kUsage, "%s: a 16-bit PNG holds disparities from 0 to 255 px: write a .pfm",
                        path.c_str());
-    return MapFormat::kPng16;
+    return {};
 }
 
 Status write_map(const std::string& path, MapFormat format, const DisparityMap& map, ImageView<std::uint16_t> scratch)
@@ -83,7 +92,8 @@ double density(const DisparityMap& map)
 Status run(const Words& words)
 {
     const MatchOptions options = words.match.resolved();
-    const MapFormat format = TRY(format_of(words.output, options));
+    const MapFormat format = TRY(format_of(words.output));
+    TRY(check_distinct({words.left, words.right}, {words.output}));
     const Kernels* kernels = TRY(choose_kernels(words.match.cpu));
     const PictureSize size = TRY(picture_size(words.left.c_str()));
     const PictureSize other = TRY(picture_size(words.right.c_str()));
@@ -94,6 +104,7 @@ Status run(const Words& words)
     if (fits.fault() == Fault::kBadData)
         return failure(Fault::kBadData, "%s: %s", words.left.c_str(), fits.message());
     TRY(fits);
+    TRY(check_holds(words.output, format, options));
     {
         OutputFile can_be_written;
         TRY(can_be_written.open(words.output.c_str()));
@@ -106,12 +117,17 @@ Status run(const Words& words)
     ThreadCrew crew(threads);
     TRY(crew.started());
     const std::int64_t start = monotonic_us();
-    MatchOutcome outcome = [&] {
-        Progress progress("matching");
-        return bench.matcher.match(bench.left, bench.right, crew, {nullptr, Progress::rows_done, &progress});
-    }();
-    const double seconds = static_cast<double>(monotonic_us() - start) * 1e-6;
-    TRY(write_map(words.output, format, outcome.map, bench.output));
+    MatchOutcome outcome{};
+    double seconds = 0;
+    {
+        const SealedHeap sealed;
+        {
+            Progress progress("matching");
+            outcome = bench.matcher.match(bench.left, bench.right, crew, {nullptr, Progress::rows_done, &progress});
+        }
+        seconds = static_cast<double>(monotonic_us() - start) * 1e-6;
+        TRY(write_map(words.output, format, outcome.map, bench.output));
+    }
 
     const double terms_per_s = static_cast<double>(bench.matcher.terms()) / seconds;
     const ProcessMemory memory = TRY(process_memory());

@@ -9,6 +9,14 @@ namespace dicot::app {
 
 void MatchWords::add_to(CLI::App& command)
 {
+    add_all_but_threads_to(command);
+    command.add_option("--threads", threads, "worker threads; 0: one for each processor. Never changes the result")
+        ->check(CLI::Range(0, ThreadCrew::kMaxThreads))
+        ->capture_default_str();
+}
+
+void MatchWords::add_all_but_threads_to(CLI::App& command)
+{
     command.add_option("--method", method, "paper: the published equations alone; standard: checked and refined")
         ->check(CLI::IsMember({"paper", "standard"}))
         ->capture_default_str();
@@ -19,9 +27,6 @@ void MatchWords::add_to(CLI::App& command)
     command.add_option("--gamma-color", options.gamma_color, "colour tolerance of the support weights, CIELAB units")
         ->capture_default_str();
     command.add_option("--gamma-space", options.gamma_space, "reach of the support weights, px")->capture_default_str();
-    command.add_option("--threads", threads, "worker threads; 0: one for each processor. Never changes the result")
-        ->check(CLI::Range(0, ThreadCrew::kMaxThreads))
-        ->capture_default_str();
     command.add_option("--cpu", cpu, "instruction set. Never changes the result")
         ->check(CLI::IsMember({"auto", "scalar", "avx2", "neon"}))
         ->capture_default_str();

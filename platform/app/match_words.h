@@ -19,6 +19,8 @@ struct MatchWords
     int threads = 0; ///< 0: one for each processor that this process may use
 
     void add_to(CLI::App& command);
+    /// For commands that choose the number of threads themselves.
+    void add_all_but_threads_to(CLI::App& command);
 
     /// The options with method and cost filled in.
     MatchOptions resolved() const;

@@ -1,5 +1,6 @@
 // dicot process: a pair in, a compressed cloud out.
 #include "commands.h"
+#include "distinct_files.h"
 #include "match_words.h"
 #include "process_bench.h"
 #include "progress.h"
@@ -94,6 +95,7 @@ Status check_output(const std::string& path, const char* ending)
 
 Status check_outputs(const Words& words)
 {
+    TRY(check_distinct({words.left, words.right, words.rig}, {words.cloud, words.ply, words.preview, words.disparity}));
     TRY(check_output(words.cloud, ".drc"));
     TRY(check_output(words.ply, ".ply"));
     TRY(check_output(words.preview, ".png"));
@@ -187,7 +189,7 @@ Result<PointCloud> see(const Words& words, const Plan& plan, ProcessBench& bench
     findings.pixels = seen.pixels;
     times.triangulate_s = watch.lap_s();
 
-    if (!words.disparity.empty()) {
+    if (!words.disparity.empty() && !seen.cloud.points.empty()) {
         paint_disparities(map, painted);
         TRY(write_png(words.disparity.c_str(), painted));
     }
@@ -206,9 +208,9 @@ Status keep(const Words& words, const Plan& plan, const ProcessBench& bench, con
     findings.cloud_bytes = encoded.bytes.size();
     findings.heap_peak_bytes = encoded.heap_peak_bytes;
     times.encode_s = watch.lap_s();
-    TRY(write_bytes(words.cloud, encoded.bytes));
     if (!words.ply.empty())
         TRY(write_ply(words.ply.c_str(), cloud, plan.meta));
+    TRY(write_bytes(words.cloud, encoded.bytes));
     times.write_s = watch.lap_s();
     return {};
 }

@@ -120,7 +120,7 @@ for arch in arm64 armhf; do
     $program selftest >"$work/selftest" || code=$?
     cat "$work/selftest"
     judge "$arch selftest" $code
-    judge "$arch selftest reached all four NEON kernels" "$([ "$(grep -c '^neon .*equal' "$work/selftest")" = 4 ]; echo $?)"
+    judge "$arch selftest reached all five NEON kernels" "$([ "$(grep -c '^neon .*equal' "$work/selftest")" = 5 ]; echo $?)"
 
     code=0
     write_all "$program" "$work/$arch" || code=$?

@@ -86,9 +86,13 @@ Scene scene_of(int width, int height, const MatchOptions& options, const Kernels
 Status Matcher::check(int width, int height, const MatchOptions& options)
 {
     constexpr int kLeastSide = 8;
+    constexpr int kMaxSide = 16384; // sums of columns and margins stay far below 2^31
     if (width < kLeastSide || height < kLeastSide)
         return failure(Fault::kBadData, "the pictures are %d x %d px; the smallest that can be matched is %d x %d",
                        width, height, kLeastSide, kLeastSide);
+    if (width > kMaxSide || height > kMaxSide)
+        return failure(Fault::kBadData, "the pictures are %d x %d px; the largest that can be matched is %d x %d",
+                       width, height, kMaxSide, kMaxSide);
     if (options.disparities < 1 || options.disparities > kMaxDisparities)
         return failure(Fault::kUsage, "%d disparities: choose 1 to %d, or match smaller pictures", options.disparities,
                        kMaxDisparities);

@@ -116,8 +116,12 @@ void drop_unmatched(const Maps& maps)
 void fill_gaps(const Maps& maps)
 {
     const auto width = static_cast<std::size_t>(maps.disparity.width);
-    for (int y = 0; y < maps.disparity.height; ++y)
+    for (int y = 0; y < maps.disparity.height; ++y) {
         fill_row({maps.disparity.row(y), width}, {maps.verdict.row(y), width});
+        for (int x = 0; x < maps.disparity.width; ++x)
+            if (maps.verdict.row(y)[x] != Verdict::kMatched)
+                maps.confidence.row(y)[x] = 0;
+    }
     fill_empty_rows(maps.disparity);
 }
 

@@ -24,9 +24,10 @@ bool colour_edge(LabRow row, int i, int j)
     return l * l + a * a + b * b > kEdge * kEdge;
 }
 
-/// One step of the path: `behind` and `ahead` have a border entry on both sides; returns the least of `ahead`.
+/// One step of the path over positions `first` .. axis - 1: what lies before them pads the vectors and is no disparity.
+/// `behind` and `ahead` have a border entry on both sides; returns the least of `ahead`.
 int step(const std::uint16_t* costs, const std::uint16_t* behind, int least_behind, bool edge, std::uint16_t* ahead,
-         int axis)
+         int first, int axis)
 {
     const int small = edge ? kSmallStep / kEdgeDivisor : kSmallStep;
     const int large = edge ? kLargeStep / kEdgeDivisor : kLargeStep;
@@ -34,9 +35,9 @@ int step(const std::uint16_t* costs, const std::uint16_t* behind, int least_behi
     int least = kNoCandidate;
     // What cannot be seen is neither better nor worse than the worst of what can.
     int unseen = 0;
-    for (int r = 0; r < axis; ++r)
+    for (int r = first; r < axis; ++r)
         unseen = std::max<int>(unseen, costs[r] == kNoCandidate ? 0 : costs[r]);
-    for (int r = 0; r < axis; ++r) {
+    for (int r = first; r < axis; ++r) {
         const int own = std::min<int>(costs[r], unseen);
         const int same = behind[r + 1];
         const int near = std::min<int>(behind[r], behind[r + 2]) + small;
@@ -62,17 +63,20 @@ void ScanlinePass::smooth(const Scene& scene, int y, std::span<std::uint16_t> co
     const LabRow colours = scene.left.lab(y);
     std::uint16_t* behind = state_.data();
     std::uint16_t* ahead = state_.data() + axis + 2;
-    // The border of the axis never wins.
-    for (std::uint16_t* path : {behind, ahead})
-        path[0] = path[axis + 1] = kNoCandidate;
-    const auto start = [&] { std::fill(behind + 1, behind + 1 + axis, std::uint16_t{0}); };
+    // The borders of the range never win.
+    const int first = scene.axis - scene.disparities;
+    for (std::uint16_t* path : {behind, ahead}) {
+        std::fill_n(path, first + 1, kNoCandidate);
+        path[axis + 1] = kNoCandidate;
+    }
+    const auto start = [&] { std::fill(behind + 1 + first, behind + 1 + axis, std::uint16_t{0}); };
 
     start();
     int least = 0;
     for (int x = 0; x < scene.width; ++x) {
         const bool edge = x > 0 && colour_edge(colours, x, x - 1);
         const std::size_t at = static_cast<std::size_t>(x) * axis;
-        least = step(&costs[at], behind, least, edge, ahead, scene.axis);
+        least = step(&costs[at], behind, least, edge, ahead, first, scene.axis);
         std::copy_n(ahead + 1, axis, &forward_[at]);
         std::swap(behind, ahead);
     }
@@ -81,7 +85,7 @@ void ScanlinePass::smooth(const Scene& scene, int y, std::span<std::uint16_t> co
     for (int x = scene.width; x-- > 0;) {
         const bool edge = x + 1 < scene.width && colour_edge(colours, x, x + 1);
         const std::size_t at = static_cast<std::size_t>(x) * axis;
-        least = step(&costs[at], behind, least, edge, ahead, scene.axis);
+        least = step(&costs[at], behind, least, edge, ahead, first, scene.axis);
         for (std::size_t r = 0; r < axis; ++r)
             if (costs[at + r] != kNoCandidate)
                 costs[at + r] = static_cast<std::uint16_t>((forward_[at + r] + ahead[r + 1]) / 2);

@@ -72,7 +72,7 @@ class Matcher
 {
 public:
     /// Checks the options against the picture size.
-    /// Errors: kUsage with the option's name and range.
+    /// Errors: kBadData for a size that cannot be matched, kUsage with the option's name and range.
     static Status check(int width, int height, const MatchOptions& options);
 
     /// Carves the matcher out of `arena`. With a measuring arena nothing may be matched; arena.peak() tells the need.
