@@ -85,6 +85,35 @@ TEST(Match, WordsThatMakeNoSenseAreRefused)
                    "map.png");
 }
 
+TEST(Match, AnOutputIsNeverOneOfTheInputs)
+{
+    const Pair pair;
+    const Bytes before = test::bytes_of(pair.left);
+    const std::string picture = pair.folder.write("photo.png", before);
+    expect_refused(pair,
+                   picture + " " + pair.right + kQuick + " -o " + pair.folder.path("../") +
+                       std::filesystem::path(pair.folder.path("")).parent_path().filename().string() + "/photo.png",
+                   64, "named twice");
+    EXPECT_EQ(test::bytes_of(picture), before);
+}
+
+TEST(Match, ARangeIsJudgedBeforeAFormatIsAdvised)
+{
+    const Pair pair;
+    const std::string to = pair.both() + " --window 3 -o " + pair.folder.path("map.png");
+    expect_refused(pair, to + " --disparities 8 --min-disparity 2147483600", 64, "leaves nothing to match");
+    expect_refused(pair, to + " --disparities 1000", 64, "choose 1 to 255");
+    expect_refused(pair, to + " --disparities 8 --min-disparity -4", 64, "write a .pfm");
+}
+
+TEST(Memory, ASizeThatNoPictureHasIsRefused)
+{
+    const Pair pair;
+    const ToolRun run = complaint("memory --width 2000000000 --height 2000000000");
+    EXPECT_EQ(run.exit_code, 65) << run.output;
+    EXPECT_NE(run.output.find("the largest that can be matched"), std::string::npos) << run.output;
+}
+
 TEST(Match, AnUnknownWordIsAUsageError)
 {
     const Pair pair;
