@@ -8,27 +8,27 @@
 namespace dicot::app {
 namespace {
 
-Matrix<3, 3> rows_of(const Matrix3& m)
+Matrix<3, 3> rows_of(const Turn& m)
 {
     return {{{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}}};
 }
 
-Result<CameraModel> camera_of(const RigCamera& camera, const char* path)
+Result<Lens> lens_of(const RigCamera& camera, const char* path)
 {
     const Matrix<3, 3>& k = *camera.intrinsic;
     if (k[0][1] != 0 || k[1][0] != 0 || k[2] != std::array<double, 3>{0, 0, 1})
         return failure(Fault::kBadData,
                        "%s: K1 and K2 must have the form fx 0 cx, 0 fy cy, 0 0 1: calibrate without skew", path);
-    CameraModel model{k[0][0], k[1][1], k[0][2], k[1][2], {}};
+    Lens lens{k[0][0], k[1][1], k[0][2], k[1][2], {}};
     if (camera.distortion) {
-        std::copy_n(camera.distortion->at.begin(), model.distortion.size(), model.distortion.begin());
+        std::copy_n(camera.distortion->at.begin(), lens.k.size(), lens.k.begin());
         if (camera.distortion->at[12] != 0 || camera.distortion->at[13] != 0)
             return failure(Fault::kBadData,
                            "%s: tilted sensors (the 13th and 14th number of D1 and D2) are not known here: calibrate "
                            "without the tilted model",
                            path);
     }
-    return model;
+    return lens;
 }
 
 } // namespace
@@ -38,7 +38,7 @@ bool describes_cameras(const RigFile& rig)
     return rig.left.intrinsic && rig.right.intrinsic && rig.rotation && rig.translation_mm;
 }
 
-Result<StereoModel> stereo_model_of(const RigFile& rig, const char* name)
+Result<StereoRig> stereo_rig_of(const RigFile& rig, const char* name)
 {
     const char* path = shown_path(name);
     if (!describes_cameras(rig))
@@ -46,15 +46,16 @@ Result<StereoModel> stereo_model_of(const RigFile& rig, const char* name)
                        "%s: K1, K2, R and T are needed to rectify, and one of them is missing: give the file that "
                        "'dicot calibrate' wrote",
                        path);
-    StereoModel model;
-    model.width = rig.width;
-    model.height = rig.height;
-    model.left = TRY(camera_of(rig.left, path));
-    model.right = TRY(camera_of(rig.right, path));
+    StereoRig stereo;
+    stereo.width = rig.width;
+    stereo.height = rig.height;
+    stereo.left = TRY(lens_of(rig.left, path));
+    stereo.right = TRY(lens_of(rig.right, path));
     for (std::size_t i = 0; i < 9; ++i)
-        model.right_from_left[i] = (*rig.rotation)[i / 3][i % 3];
-    model.translation_mm = *rig.translation_mm;
-    return model;
+        stereo.turn[i] = (*rig.rotation)[i / 3][i % 3];
+    const auto& [x, y, z] = *rig.translation_mm;
+    stereo.shift_mm = {x, y, z};
+    return stereo;
 }
 
 void set_rectification(RigFile& rig, const Rectification& flat)
@@ -71,8 +72,8 @@ void set_rectification(RigFile& rig, const Rectification& flat)
 Result<RectifyTables> RectifyTables::make(RigFile& rig, double keep, const char* name)
 {
     const char* path = shown_path(name);
-    const StereoModel model = TRY(stereo_model_of(rig, name));
-    const Rectification flat = TRY(rectify(model, keep, path));
+    const StereoRig stereo = TRY(stereo_rig_of(rig, name));
+    const Rectification flat = TRY(rectify(stereo, keep, path));
     Arena measure;
     const std::size_t each = RemapTable::most_bytes(rig.width, rig.height);
     (void)measure.take<std::byte>(each);
@@ -82,10 +83,10 @@ Result<RectifyTables> RectifyTables::make(RigFile& rig, double keep, const char*
     RectifyTables tables{TRY(MemoryBlock::map(measure.peak()))};
     Arena arena(tables.block_.bytes());
     tables.left_ =
-        TRY(RemapTable::build(LensMap(model.left, flat.left_rectifying, flat.focal_px, flat.cx_px, flat.cy_px),
+        TRY(RemapTable::build(LensMap(stereo.left, flat.left_rectifying, flat.focal_px, flat.cx_px, flat.cy_px),
                               rig.width, rig.height, arena, path));
     tables.right_ =
-        TRY(RemapTable::build(LensMap(model.right, flat.right_rectifying, flat.focal_px, flat.cx_px, flat.cy_px),
+        TRY(RemapTable::build(LensMap(stereo.right, flat.right_rectifying, flat.focal_px, flat.cx_px, flat.cy_px),
                               rig.width, rig.height, arena, path));
     tables.spans_ = arena.take<RemapSpan>(most_spans);
     if (arena.overrun())

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dicot/os/memory_block.h"
+#include "dicot/rectification/rectify.h"
 #include "dicot/rectification/remap_table.h"
 #include "dicot/rig/rig_file.h"
 
@@ -11,7 +12,7 @@ namespace dicot::app {
 bool describes_cameras(const RigFile& rig);
 
 /// The cameras of a rig file. Fault::kBadData: K1, K2, R or T is missing, skew, a tilted sensor.
-Result<StereoModel> stereo_model_of(const RigFile& rig, const char* name);
+Result<StereoRig> stereo_rig_of(const RigFile& rig, const char* name);
 
 /// Fills R1 R2 P1 P2 Q.
 void set_rectification(RigFile& rig, const Rectification& flat);
@@ -21,7 +22,7 @@ class RectifyTables
 {
 public:
     /// Rectifies `rig` (filling R1 R2 P1 P2 Q) and builds both tables. `keep` as in rectify().
-    /// Errors: those of stereo_model_of(), rectify() and RemapTable::build(); kOsError without memory.
+    /// Errors: those of stereo_rig_of(), rectify() and RemapTable::build(); kOsError without memory.
     static Result<RectifyTables> make(RigFile& rig, double keep, const char* name);
 
     const RemapTable& left() const { return left_; }

@@ -43,8 +43,8 @@ Result<RigFile> read_whole(const std::string& path)
     RigFile rig = TRY(read_any(path));
     const bool rectified = rig.left.rectifying && rig.right.rectifying && rig.left.projection && rig.right.projection;
     if (!rectified && describes_cameras(rig)) {
-        const StereoModel model = TRY(stereo_model_of(rig, path.c_str()));
-        set_rectification(rig, TRY(rectify(model, kCrop, path.c_str())));
+        const StereoRig stereo = TRY(stereo_rig_of(rig, path.c_str()));
+        set_rectification(rig, TRY(rectify(stereo, kCrop, path.c_str())));
     }
     return rig;
 }

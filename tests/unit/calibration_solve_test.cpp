@@ -26,7 +26,7 @@ std::array<double, kRigNumbers> numbers_of(const StereoRig& rig)
         n[first + 1] = lens.fy;
         n[first + 2] = lens.cx;
         n[first + 3] = lens.cy;
-        std::copy(lens.k.begin(), lens.k.end(), n.begin() + static_cast<std::ptrdiff_t>(first) + 4);
+        std::copy_n(lens.k.begin(), 5, n.begin() + static_cast<std::ptrdiff_t>(first) + 4);
     }
     n[21] = rig.shift_mm.x;
     n[22] = rig.shift_mm.y;

@@ -1,3 +1,4 @@
+#include "dicot/rectification/rectify.h"
 #include "dicot/rectification/remap_table.h"
 
 #include <gtest/gtest.h>
@@ -13,48 +14,42 @@ namespace dicot {
 namespace {
 
 // The rendered rig's true cameras (shared data, rig-dev/plants/gt_calib.yml).
-StereoModel rendered_rig()
+StereoRig rendered_rig()
 {
-    StereoModel model;
-    model.width = 1280;
-    model.height = 720;
-    model.left = {777.89276786340088,
+    StereoRig rig;
+    rig.width = 1280;
+    rig.height = 720;
+    rig.left = {777.89276786340088,
                   779.22841480213208,
                   638.20879698541989,
                   359.94927648284801,
                   {-0.10451280577602631, 0.039583562349614201, 6.4668286917118727e-04, -9.7136284707223563e-04}};
-    model.right = {783.05460860099208,
+    rig.right = {783.05460860099208,
                    781.84721187021341,
                    649.95462525230630,
                    358.40482391422904,
                    {-0.14228166762931541, 0.028297523822456185, 1.3748218827529797e-03, -1.1776613385286675e-03}};
-    model.right_from_left = {9.9979302529515746e-01,  1.8468642903365546e-02,  8.5332174743929512e-03,
+    rig.turn = {9.9979302529515746e-01,  1.8468642903365546e-02,  8.5332174743929512e-03,
                              -1.8639456633073443e-02, 9.9961830559038156e-01,  2.0391512573594013e-02,
                              -8.1533568290057135e-03, -2.0546346583352321e-02, 9.9975565535509547e-01};
-    model.translation_mm = {-84.985154252604417, 1.0246794468807228, 1.2139146148627700};
-    return model;
-}
-
-std::array<double, 3> turned(const Matrix3& m, const std::array<double, 3>& v)
-{
-    return {m[0] * v[0] + m[1] * v[1] + m[2] * v[2], m[3] * v[0] + m[4] * v[1] + m[5] * v[2],
-            m[6] * v[0] + m[7] * v[1] + m[8] * v[2]};
+    rig.shift_mm = {-84.985154252604417, 1.0246794468807228, 1.2139146148627700};
+    return rig;
 }
 
 /// OpenCV's projection of a point, written out.
-Position projected(const CameraModel& camera, const std::array<double, 3>& point)
+Point2 projected(const Lens& lens, const Point3& point)
 {
-    const double x = point[0] / point[2], y = point[1] / point[2], r2 = x * x + y * y;
-    const auto& k = camera.distortion;
+    const double x = point.x / point.z, y = point.y / point.z, r2 = x * x + y * y;
+    const auto& k = lens.k;
     const double scale =
         (1 + k[0] * r2 + k[1] * r2 * r2 + k[4] * r2 * r2 * r2) / (1 + k[5] * r2 + k[6] * r2 * r2 + k[7] * r2 * r2 * r2);
-    return {camera.fx * (x * scale + 2 * k[2] * x * y + k[3] * (r2 + 2 * x * x)) + camera.cx,
-            camera.fy * (y * scale + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y) + camera.cy};
+    return {lens.fx * (x * scale + 2 * k[2] * x * y + k[3] * (r2 + 2 * x * x)) + lens.cx,
+            lens.fy * (y * scale + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y) + lens.cy};
 }
 
-LensMap map_of(const CameraModel& camera, const Matrix3& turn, const Rectification& flat)
+LensMap map_of(const Lens& lens, const Turn& turn, const Rectification& flat)
 {
-    return {camera, turn, flat.focal_px, flat.cx_px, flat.cy_px};
+    return {lens, turn, flat.focal_px, flat.cx_px, flat.cy_px};
 }
 
 struct Built
@@ -80,23 +75,21 @@ struct Built
 
 TEST(Rectify, APointLiesOnOneRowAndItsDisparityIsItsDepth)
 {
-    const StereoModel model = rendered_rig();
-    const Rectification flat = rectify(model, kCrop, "rig.yaml").value();
-    const LensMap left = map_of(model.left, flat.left_rectifying, flat),
-                  right = map_of(model.right, flat.right_rectifying, flat);
+    const StereoRig rig = rendered_rig();
+    const Rectification flat = rectify(rig, kCrop, "rig.yaml").value();
+    const LensMap left = map_of(rig.left, flat.left_rectifying, flat),
+                  right = map_of(rig.right, flat.right_rectifying, flat);
     std::mt19937 random{7};
     std::uniform_real_distribution<double> side(-150, 150), depth(400, 1500);
     for (int i = 0; i < 1000; ++i) {
-        const std::array<double, 3> in_left{side(random), side(random), depth(random)};
-        std::array<double, 3> in_right = turned(model.right_from_left, in_left);
-        for (std::size_t k = 0; k < 3; ++k)
-            in_right[k] += model.translation_mm[k];
+        const Point3 in_left{side(random), side(random), depth(random)};
+        const Point3 in_right = rig.into_right(in_left);
         const auto in_flat = turned(flat.left_rectifying, in_left);
-        const double x = flat.focal_px * in_flat[0] / in_flat[2] + flat.cx_px,
-                     y = flat.focal_px * in_flat[1] / in_flat[2] + flat.cy_px;
-        const double disparity = flat.focal_px * flat.baseline_mm / in_flat[2];
-        const Position from_left = left.source_of(x, y), from_right = right.source_of(x - disparity, y);
-        const Position seen_left = projected(model.left, in_left), seen_right = projected(model.right, in_right);
+        const double x = flat.focal_px * in_flat.x / in_flat.z + flat.cx_px,
+                     y = flat.focal_px * in_flat.y / in_flat.z + flat.cy_px;
+        const double disparity = flat.focal_px * flat.baseline_mm / in_flat.z;
+        const Point2 from_left = left.source_of(x, y), from_right = right.source_of(x - disparity, y);
+        const Point2 seen_left = projected(rig.left, in_left), seen_right = projected(rig.right, in_right);
         ASSERT_NEAR(from_left.x, seen_left.x, 1e-8);
         ASSERT_NEAR(from_left.y, seen_left.y, 1e-8);
         ASSERT_NEAR(from_right.x, seen_right.x, 1e-8) << "T or R is used the wrong way round";
@@ -112,13 +105,13 @@ TEST(Rectify, EachCameraTurnsHalfTheWay)
 {
     // 20 degrees about the vertical, with the baseline exactly half-way between: 10 degrees each, and nothing else.
     const double c = std::cos(20 * M_PI / 180), s = std::sin(20 * M_PI / 180);
-    StereoModel model;
-    model.width = 640;
-    model.height = 480;
-    model.left = model.right = {600, 600, 319.5, 239.5, {}};
-    model.right_from_left = {c, 0, s, 0, 1, 0, -s, 0, c};
-    model.translation_mm = {-100 * std::cos(10 * M_PI / 180), 0, 100 * std::sin(10 * M_PI / 180)};
-    const Rectification flat = rectify(model, kCrop, "rig.yaml").value();
+    StereoRig rig;
+    rig.width = 640;
+    rig.height = 480;
+    rig.left = rig.right = {600, 600, 319.5, 239.5, {}};
+    rig.turn = {c, 0, s, 0, 1, 0, -s, 0, c};
+    rig.shift_mm = {-100 * std::cos(10 * M_PI / 180), 0, 100 * std::sin(10 * M_PI / 180)};
+    const Rectification flat = rectify(rig, kCrop, "rig.yaml").value();
     EXPECT_NEAR(flat.left_rectifying[2], std::sin(10 * M_PI / 180), 1e-12);
     EXPECT_NEAR(flat.right_rectifying[2], -std::sin(10 * M_PI / 180), 1e-12);
     EXPECT_NEAR(flat.left_rectifying[4], 1, 1e-12);
@@ -127,13 +120,13 @@ TEST(Rectify, EachCameraTurnsHalfTheWay)
 
 TEST(Rectify, ParallelCamerasStayAsTheyAre)
 {
-    StereoModel model;
-    model.width = 640;
-    model.height = 480;
-    model.left = model.right = {500, 500, 319.5, 239.5, {}};
-    model.right_from_left = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-    model.translation_mm = {-60, 0, 0};
-    const Rectification flat = rectify(model, kKeepAll, "rig.yaml").value();
+    StereoRig rig;
+    rig.width = 640;
+    rig.height = 480;
+    rig.left = rig.right = {500, 500, 319.5, 239.5, {}};
+    rig.turn = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    rig.shift_mm = {-60, 0, 0};
+    const Rectification flat = rectify(rig, kKeepAll, "rig.yaml").value();
     EXPECT_NEAR(flat.focal_px, 500, 1e-6);
     EXPECT_NEAR(flat.cx_px, 319.5, 1e-6);
     EXPECT_NEAR(flat.cy_px, 239.5, 1e-6);
@@ -142,21 +135,21 @@ TEST(Rectify, ParallelCamerasStayAsTheyAre)
 
 TEST(Rectify, CropLeavesNoPixelWithoutSourceAndKeepAllLosesNone)
 {
-    const StereoModel model = rendered_rig();
-    const Rectification crop = rectify(model, kCrop, "rig.yaml").value();
-    const Rectification whole = rectify(model, kKeepAll, "rig.yaml").value();
+    const StereoRig rig = rendered_rig();
+    const Rectification crop = rectify(rig, kCrop, "rig.yaml").value();
+    const Rectification whole = rectify(rig, kKeepAll, "rig.yaml").value();
     EXPECT_GT(crop.focal_px, whole.focal_px);
     for (const auto& [camera, turn] :
-         {std::pair{&model.left, &crop.left_rectifying}, std::pair{&model.right, &crop.right_rectifying}}) {
+         {std::pair{&rig.left, &crop.left_rectifying}, std::pair{&rig.right, &crop.right_rectifying}}) {
         const Built built(map_of(*camera, *turn, crop), 1280, 720);
         EXPECT_EQ(built.table.pixels_with_source(), 1280 * 720);
     }
     for (const double x : {0.0, 1279.0})
         for (const double y : {0.0, 719.0}) {
-            const Position seen = direction_of(model.left, {x, y}).value();
+            const Point2 seen = undistort(rig.left, {x, y}).value();
             const auto ray = turned(whole.left_rectifying, {seen.x, seen.y, 1});
-            const double u = whole.focal_px * ray[0] / ray[2] + whole.cx_px,
-                         v = whole.focal_px * ray[1] / ray[2] + whole.cy_px;
+            const double u = whole.focal_px * ray.x / ray.z + whole.cx_px,
+                         v = whole.focal_px * ray.y / ray.z + whole.cy_px;
             EXPECT_TRUE(u > -0.01 && u < 1279.01 && v > -0.01 && v < 719.01) << u << ' ' << v;
         }
 }
@@ -164,30 +157,30 @@ TEST(Rectify, CropLeavesNoPixelWithoutSourceAndKeepAllLosesNone)
 TEST(Rectify, RefusesWhatIsNoRig)
 {
     const auto refused = [](auto change) {
-        StereoModel model = rendered_rig();
-        change(model);
-        const Result<Rectification> outcome = rectify(model, kCrop, "rig.yaml");
+        StereoRig rig = rendered_rig();
+        change(rig);
+        const Result<Rectification> outcome = rectify(rig, kCrop, "rig.yaml");
         EXPECT_FALSE(outcome.ok());
         return std::string(outcome.status().message());
     };
-    EXPECT_NE(refused([](StereoModel& m) { m.left.cx = std::nan(""); }).find("not finite"), std::string::npos);
-    EXPECT_NE(refused([](StereoModel& m) { m.translation_mm = {85, 0, 0}; }).find("swapped"), std::string::npos);
-    EXPECT_NE(refused([](StereoModel& m) {
-                  m.translation_mm = {1, -85, 0};
+    EXPECT_NE(refused([](StereoRig& m) { m.left.cx = std::nan(""); }).find("not finite"), std::string::npos);
+    EXPECT_NE(refused([](StereoRig& m) { m.shift_mm = {85, 0, 0}; }).find("swapped"), std::string::npos);
+    EXPECT_NE(refused([](StereoRig& m) {
+                  m.shift_mm = {1, -85, 0};
               }).find("above each other"),
               std::string::npos);
-    EXPECT_NE(refused([](StereoModel& m) { m.translation_mm = {-0.085, 0, 0}; }).find("unit: m"), std::string::npos);
-    EXPECT_NE(refused([](StereoModel& m) { m.right_from_left[0] = -1; }).find("no rotation"), std::string::npos);
-    EXPECT_NE(refused([](StereoModel& m) { m.right.fy = 0; }).find("focal length"), std::string::npos);
-    EXPECT_NE(refused([](StereoModel& m) { m.left.distortion[0] = -3; }).find("cannot be undone"), std::string::npos);
+    EXPECT_NE(refused([](StereoRig& m) { m.shift_mm = {-0.085, 0, 0}; }).find("unit: m"), std::string::npos);
+    EXPECT_NE(refused([](StereoRig& m) { m.turn[0] = -1; }).find("no rotation"), std::string::npos);
+    EXPECT_NE(refused([](StereoRig& m) { m.right.fy = 0; }).find("focal length"), std::string::npos);
+    EXPECT_NE(refused([](StereoRig& m) { m.left.k[0] = -3; }).find("cannot be undone"), std::string::npos);
 }
 
 TEST(RemapTable, EveryPixelIsWithin1Of64OfTheDoubleMap)
 {
-    const StereoModel model = rendered_rig();
+    const StereoRig rig = rendered_rig();
     for (const double keep : {kCrop, kKeepAll}) {
-        const Rectification flat = rectify(model, keep, "rig.yaml").value();
-        const LensMap map = map_of(model.right, flat.right_rectifying, flat);
+        const Rectification flat = rectify(rig, keep, "rig.yaml").value();
+        const LensMap map = map_of(rig.right, flat.right_rectifying, flat);
         Built built(map, 1280, 720);
         EXPECT_EQ(built.table.cell_px(), 8);
         EXPECT_LT(built.table.table_bytes(), 125'000u);
@@ -196,7 +189,7 @@ TEST(RemapTable, EveryPixelIsWithin1Of64OfTheDoubleMap)
             built.table.row_spans(y, built.spans);
             for (int x = 0; x < 1280; ++x) {
                 const RemapSpan& span = built.spans[static_cast<std::size_t>(x / 8)];
-                const Position exact = map.source_of(x, y);
+                const Point2 exact = map.source_of(x, y);
                 if (exact.x < 0 || exact.y < 0 || exact.x > 1279 || exact.y > 719)
                     continue;
                 worst = std::max({worst, std::fabs((span.x + x % 8 * span.dx) / 65536.0 - exact.x),
@@ -213,10 +206,10 @@ TEST(RemapTable, EveryPixelIsWithin1Of64OfTheDoubleMap)
 
 TEST(RemapTable, AStrongLensGetsSmallerCellsAndAnImpossibleOneIsRefused)
 {
-    const Matrix3 none{1, 0, 0, 0, 1, 0, 0, 0, 1};
-    const CameraModel strong{250, 250, 159.5, 119.5, {-0.38, 0.15}};
+    const Turn none{1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const Lens strong{250, 250, 159.5, 119.5, {-0.38, 0.15}};
     EXPECT_EQ(Built(LensMap(strong, none, 300, 159.5, 119.5), 320, 240).table.cell_px(), 4);
-    const CameraModel impossible{60, 60, 159.5, 119.5, {3.0}};
+    const Lens impossible{60, 60, 159.5, 119.5, {3.0}};
     std::vector<std::byte> memory(RemapTable::most_bytes(320, 240) + 64);
     void* start = memory.data();
     std::size_t space = memory.size();
@@ -229,12 +222,12 @@ TEST(RemapTable, AStrongLensGetsSmallerCellsAndAnImpossibleOneIsRefused)
 
 TEST(RemapTable, BytesAreTheSameEverywhereAndDamageIsFound)
 {
-    const StereoModel model = rendered_rig();
-    const Rectification flat = rectify(model, kCrop, "rig.yaml").value();
-    Built built(map_of(model.left, flat.left_rectifying, flat), 1280, 720);
+    const StereoRig rig = rendered_rig();
+    const Rectification flat = rectify(rig, kCrop, "rig.yaml").value();
+    Built built(map_of(rig.left, flat.left_rectifying, flat), 1280, 720);
     std::vector<std::byte> bytes(built.table.serial_bytes());
     built.table.write(bytes);
-    Built other(map_of(model.left, flat.left_rectifying, flat), 1280, 720);
+    Built other(map_of(rig.left, flat.left_rectifying, flat), 1280, 720);
     other.arena.rewind(0);
     const Result<RemapTable> read = RemapTable::read(bytes, other.arena, "table");
     ASSERT_TRUE(read.ok()) << read.status().message();
@@ -259,8 +252,8 @@ TEST(RemapTable, BytesAreTheSameEverywhereAndDamageIsFound)
 
 TEST(Remap, GreyAndColourAgreeAndTheIdentityChangesNothing)
 {
-    const Matrix3 none{1, 0, 0, 0, 1, 0, 0, 0, 1};
-    const CameraModel plain{300, 300, 49.5, 29.5, {}};
+    const Turn none{1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const Lens plain{300, 300, 49.5, 29.5, {}};
     constexpr int kWidth = 101, kHeight = 59;
     std::mt19937 random{9};
     std::vector<Rgb8> colour(kWidth * kHeight), colour_out(colour.size());

@@ -8,32 +8,10 @@
 namespace dicot {
 namespace {
 
-using Vector3 = std::array<double, 3>;
-
 constexpr double kShortestBaselineMm = 1.0;
 constexpr double kOrthogonal = 1e-5; // what a text file's rounding may have done to a rotation
 
-Vector3 turned(const Matrix3& m, const Vector3& v)
-{
-    return {m[0] * v[0] + m[1] * v[1] + m[2] * v[2], m[3] * v[0] + m[4] * v[1] + m[5] * v[2],
-            m[6] * v[0] + m[7] * v[1] + m[8] * v[2]};
-}
-
-Matrix3 transposed(const Matrix3& m)
-{
-    return {m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8]};
-}
-
-Matrix3 product(const Matrix3& a, const Matrix3& b)
-{
-    Matrix3 result{};
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-            result[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
-    return result;
-}
-
-Matrix3 rotation_of(double w, double x, double y, double z)
+Turn rotation_of(double w, double x, double y, double z)
 {
     const double length = std::sqrt(w * w + x * x + y * y + z * z);
     w /= length, x /= length, y /= length, z /= length;
@@ -43,7 +21,7 @@ Matrix3 rotation_of(double w, double x, double y, double z)
 }
 
 /// Half of a turn by less than 90 degrees: of its quaternion (w, v), the one in the middle to the turn by nothing.
-Matrix3 half_of(const Matrix3& turn)
+Turn half_of(const Turn& turn)
 {
     const double w = std::sqrt(1 + turn[0] + turn[4] + turn[8]) / 2;
     return rotation_of(1 + w, (turn[7] - turn[5]) / (4 * w), (turn[2] - turn[6]) / (4 * w),
@@ -51,28 +29,28 @@ Matrix3 half_of(const Matrix3& turn)
 }
 
 /// The shortest turn that brings `from` onto the negative x axis.
-Matrix3 onto_minus_x(const Vector3& from)
+Turn onto_minus_x(const Point3& from)
 {
-    const double length = std::sqrt(from[0] * from[0] + from[1] * from[1] + from[2] * from[2]);
-    const Vector3 unit{from[0] / length, from[1] / length, from[2] / length};
-    return rotation_of(1 - unit[0], 0, -unit[2], unit[1]); // 1 + cosine, and unit x (-1, 0, 0)
+    const double length = std::sqrt(from.x * from.x + from.y * from.y + from.z * from.z);
+    const Point3 unit{from.x / length, from.y / length, from.z / length};
+    return rotation_of(1 - unit.x, 0, -unit.z, unit.y); // 1 + cosine, and unit x (-1, 0, 0)
 }
 
-bool finite(const StereoModel& model)
+bool finite(const StereoRig& rig)
 {
     bool all = true;
-    for (const CameraModel* camera : {&model.left, &model.right}) {
-        for (const double value : {camera->fx, camera->fy, camera->cx, camera->cy})
+    for (const Lens* lens : {&rig.left, &rig.right}) {
+        for (const double value : {lens->fx, lens->fy, lens->cx, lens->cy})
             all = all && std::isfinite(value);
-        all = all && std::ranges::all_of(camera->distortion, [](double k) { return std::isfinite(k); });
+        all = all && std::ranges::all_of(lens->k, [](double k) { return std::isfinite(k); });
     }
-    all = all && std::ranges::all_of(model.right_from_left, [](double r) { return std::isfinite(r); });
-    return all && std::ranges::all_of(model.translation_mm, [](double t) { return std::isfinite(t); });
+    all = all && std::ranges::all_of(rig.turn, [](double r) { return std::isfinite(r); });
+    return all && std::isfinite(rig.shift_mm.x) && std::isfinite(rig.shift_mm.y) && std::isfinite(rig.shift_mm.z);
 }
 
-bool is_rotation(const Matrix3& m)
+bool is_rotation(const Turn& m)
 {
-    const Matrix3 square = product(m, transposed(m));
+    const Turn square = product(m, transposed(m));
     for (std::size_t i = 0; i < 9; ++i)
         if (std::fabs(square[i] - (i % 4 == 0 ? 1.0 : 0.0)) > kOrthogonal)
             return false;
@@ -81,30 +59,30 @@ bool is_rotation(const Matrix3& m)
     return determinant > 0;
 }
 
-Status check(const StereoModel& model, const char* name)
+Status check(const StereoRig& rig, const char* name)
 {
-    if (!finite(model))
+    if (!finite(rig))
         return failure(Fault::kBadData, "%s: a number of the calibration is not finite: calibrate again", name);
-    if (model.width < 8 || model.height < 8 || model.width > 16384 || model.height > 16384)
+    if (rig.width < 8 || rig.height < 8 || rig.width > 16384 || rig.height > 16384)
         return failure(Fault::kBadData,
                        "%s: pictures of %d x %d px cannot be rectified (8 to 16384 on a side): calibrate with the "
                        "cameras' real size",
-                       name, model.width, model.height);
-    for (const CameraModel* camera : {&model.left, &model.right})
-        if (!(camera->fx > 1) || !(camera->fy > 1))
+                       name, rig.width, rig.height);
+    for (const Lens* lens : {&rig.left, &rig.right})
+        if (!(lens->fx > 1) || !(lens->fy > 1))
             return failure(Fault::kBadData, "%s: a focal length of %.6g x %.6g px is senseless: calibrate again", name,
-                           camera->fx, camera->fy);
-    if (!is_rotation(model.right_from_left))
+                           lens->fx, lens->fy);
+    if (!is_rotation(rig.turn))
         return failure(Fault::kBadData, "%s: R is no rotation: calibrate again", name);
-    if (!(model.right_from_left[0] + model.right_from_left[4] + model.right_from_left[8] > 1))
+    if (!(rig.turn[0] + rig.turn[4] + rig.turn[8] > 1))
         return failure(Fault::kBadData,
                        "%s: the cameras look in directions more than 90 degrees apart: calibrate again", name);
-    const auto& t = model.translation_mm;
-    if (!(std::fabs(t[0]) >= kShortestBaselineMm) && !(std::fabs(t[1]) >= kShortestBaselineMm))
+    const auto& t = rig.shift_mm;
+    if (!(std::fabs(t.x) >= kShortestBaselineMm) && !(std::fabs(t.y) >= kShortestBaselineMm))
         return failure(Fault::kBadData,
                        "%s: the baseline is %.6g mm, too short for two cameras: if the file's lengths are metres, "
                        "add the line 'unit: m'",
-                       name, std::fabs(t[0]));
+                       name, std::fabs(t.x));
     return {};
 }
 
@@ -116,7 +94,7 @@ struct Cover
     double outer_left, outer_right, outer_top, outer_bottom; ///< around it
 };
 
-Result<Cover> cover_of(const CameraModel& camera, const Matrix3& rectifying, int width, int height, const char* name)
+Result<Cover> cover_of(const Lens& lens, const Turn& rectifying, int width, int height, const char* name)
 {
     constexpr int kSteps = 64;
     Cover cover{0, 0, -1e9, 1e9, -1e9, 1e9, 1e9, -1e9, 1e9, -1e9};
@@ -125,15 +103,15 @@ Result<Cover> cover_of(const CameraModel& camera, const Matrix3& rectifying, int
             const double along = static_cast<double>(step) / kSteps;
             const bool flat = side < 2; // top and bottom
             const double far = side % 2;
-            const Position pixel{(flat ? along : far) * (width - 1), (flat ? far : along) * (height - 1)};
-            const std::optional<Position> seen = direction_of(camera, pixel);
-            const Vector3 ray = seen ? turned(rectifying, {seen->x, seen->y, 1}) : Vector3{0, 0, 0};
-            if (!(ray[2] > 0.05))
+            const Point2 pixel{(flat ? along : far) * (width - 1), (flat ? far : along) * (height - 1)};
+            const std::optional<Point2> seen = undistort(lens, pixel);
+            const Point3 ray = seen ? turned(rectifying, {seen->x, seen->y, 1}) : Point3{0, 0, 0};
+            if (!(ray.z > 0.05))
                 return failure(Fault::kBadData,
                                "%s: the distortion cannot be undone at the pictures' border: calibrate again, with "
                                "boards that reach the borders",
                                name);
-            const Position at{ray[0] / ray[2], ray[1] / ray[2]};
+            const Point2 at{ray.x / ray.z, ray.y / ray.z};
             cover.outer_left = std::min(cover.outer_left, at.x);
             cover.outer_right = std::max(cover.outer_right, at.x);
             cover.outer_top = std::min(cover.outer_top, at.y);
@@ -155,16 +133,16 @@ Result<Cover> cover_of(const CameraModel& camera, const Matrix3& rectifying, int
     return cover;
 }
 
-bool border_has_source(const StereoModel& model, const Rectification& flat)
+bool border_has_source(const StereoRig& rig, const Rectification& flat)
 {
     constexpr double kInside = 1.0 / 32; // twice what the table may be wrong
-    const LensMap left(model.left, flat.left_rectifying, flat.focal_px, flat.cx_px, flat.cy_px);
-    const LensMap right(model.right, flat.right_rectifying, flat.focal_px, flat.cx_px, flat.cy_px);
+    const LensMap left(rig.left, flat.left_rectifying, flat.focal_px, flat.cx_px, flat.cy_px);
+    const LensMap right(rig.right, flat.right_rectifying, flat.focal_px, flat.cx_px, flat.cy_px);
     const auto inside = [&](int x, int y) {
         for (const LensMap* map : {&left, &right}) {
-            const Position at = map->source_of(x, y);
-            if (!(at.x >= kInside && at.y >= kInside && at.x <= model.width - 1 - kInside &&
-                  at.y <= model.height - 1 - kInside))
+            const Point2 at = map->source_of(x, y);
+            if (!(at.x >= kInside && at.y >= kInside && at.x <= rig.width - 1 - kInside &&
+                  at.y <= rig.height - 1 - kInside))
                 return false;
         }
         return true;
@@ -180,40 +158,40 @@ bool border_has_source(const StereoModel& model, const Rectification& flat)
 
 } // namespace
 
-Result<Rectification> rectify(const StereoModel& model, double keep, const char* name)
+Result<Rectification> rectify(const StereoRig& rig, double keep, const char* name)
 {
-    TRY(check(model, name));
-    const Matrix3 half = half_of(model.right_from_left);
-    const Matrix3 half_back = transposed(half);
-    const Vector3 shift = turned(half_back, model.translation_mm);
-    if (std::fabs(shift[1]) > std::fabs(shift[0]))
+    TRY(check(rig, name));
+    const Turn half = half_of(rig.turn);
+    const Turn half_back = transposed(half);
+    const Point3 shift = turned(half_back, rig.shift_mm);
+    if (std::fabs(shift.y) > std::fabs(shift.x))
         return failure(Fault::kBadData,
                        "%s: the cameras stand above each other: turn the pictures by 90 degrees and calibrate them "
                        "as left and right",
                        name);
-    if (!(shift[0] < 0))
+    if (!(shift.x < 0))
         return failure(Fault::kBadData,
                        "%s: left and right cameras are swapped (T(0) is %.6g mm and must be negative); swap the "
                        "pictures and calibrate again",
-                       name, shift[0]);
-    const Matrix3 level = onto_minus_x(shift);
+                       name, shift.x);
+    const Turn level = onto_minus_x(shift);
 
     Rectification flat;
-    flat.width = model.width;
-    flat.height = model.height;
+    flat.width = rig.width;
+    flat.height = rig.height;
     flat.left_rectifying = product(level, half);
     flat.right_rectifying = product(level, half_back);
-    flat.baseline_mm = std::sqrt(shift[0] * shift[0] + shift[1] * shift[1] + shift[2] * shift[2]);
+    flat.baseline_mm = std::sqrt(shift.x * shift.x + shift.y * shift.y + shift.z * shift.z);
 
-    const Cover left = TRY(cover_of(model.left, flat.left_rectifying, model.width, model.height, name));
-    const Cover right = TRY(cover_of(model.right, flat.right_rectifying, model.width, model.height, name));
+    const Cover left = TRY(cover_of(rig.left, flat.left_rectifying, rig.width, rig.height, name));
+    const Cover right = TRY(cover_of(rig.right, flat.right_rectifying, rig.width, rig.height, name));
     // The principal point that centres both pictures, at the focal length that OpenCV starts from.
     double focal = 1e300;
-    const double w = model.width, h = model.height;
-    for (const CameraModel* camera : {&model.left, &model.right}) {
-        const double k1 = camera->distortion[0];
+    const double w = rig.width, h = rig.height;
+    for (const Lens* lens : {&rig.left, &rig.right}) {
+        const double k1 = lens->k[0];
         const double own =
-            k1 < 0 ? camera->fy * (1 + k1 * (w * w + h * h) / (4 * camera->fy * camera->fy)) : camera->fy;
+            k1 < 0 ? lens->fy * (1 + k1 * (w * w + h * h) / (4 * lens->fy * lens->fy)) : lens->fy;
         focal = std::min(focal, own);
     }
     if (!(focal > 1))
@@ -238,7 +216,7 @@ Result<Rectification> rectify(const StereoModel& model, double keep, const char*
     keep = std::clamp(keep, kCrop, kKeepAll);
     flat.focal_px = crop * (1 - keep) + whole * keep;
     // The border was sampled: a little more focal length until no pixel lacks its source.
-    for (int step = 0; keep == kCrop && !border_has_source(model, flat); ++step) {
+    for (int step = 0; keep == kCrop && !border_has_source(rig, flat); ++step) {
         if (step == 400)
             return failure(Fault::kBadData,
                            "%s: no part of the pictures is without gaps when they are flat: calibrate again", name);

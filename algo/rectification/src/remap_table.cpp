@@ -108,8 +108,8 @@ void RemapTable::fill_corners(const LensMap& map)
         for (int column = 0; column <= columns(); ++column) {
             const double x = column * cell;
             const double y = row * cell;
-            const Position at = map.source_of(x, y);
-            const Position around[] = {map.source_of(x - half, y), map.source_of(x + half, y),
+            const Point2 at = map.source_of(x, y);
+            const Point2 around[] = {map.source_of(x - half, y), map.source_of(x + half, y),
                                        map.source_of(x, y - half), map.source_of(x, y + half)};
             const double bend_x = ((around[0].x + around[1].x) + (around[2].x + around[3].x)) - 4 * at.x;
             const double bend_y = ((around[0].y + around[1].y) + (around[2].y + around[3].y)) - 4 * at.y;
@@ -149,7 +149,7 @@ double RemapTable::measure_error(const LensMap& map, std::span<RemapSpan> spans)
     for (int y = 0; y < height_; ++y) {
         row_spans(y, spans);
         for (int x = 0; x < width_; ++x) {
-            const Position exact = map.source_of(x, y);
+            const Point2 exact = map.source_of(x, y);
             const Steps steps = steps_at(spans, cell_log2_, x);
             const double error = std::max(std::fabs(steps.x / 128.0 - exact.x), std::fabs(steps.y / 128.0 - exact.y));
             const bool has_source = exact.x >= 0 && exact.y >= 0 && exact.x <= width_ - 1 && exact.y <= height_ - 1;

@@ -2,35 +2,9 @@
 #pragma once
 
 #include "dicot/base/status.h"
-
-#include <array>
+#include "dicot/base/stereo_rig.h"
 
 namespace dicot {
-
-/// Row after row.
-using Matrix3 = std::array<double, 9>;
-
-/// A pinhole camera with OpenCV's distortion: k1 k2 p1 p2 k3 k4 k5 k6 s1 s2 s3 s4, unknown ones 0. Focal lengths and
-/// principal point in px; pixel (0, 0) is the centre of the top-left pixel.
-struct CameraModel
-{
-    double fx = 0;
-    double fy = 0;
-    double cx = 0;
-    double cy = 0;
-    std::array<double, 12> distortion{};
-};
-
-/// Two cameras with pictures of one size: x_right = right_from_left * x_left + translation_mm.
-struct StereoModel
-{
-    int width = 0;
-    int height = 0;
-    CameraModel left;
-    CameraModel right;
-    Matrix3 right_from_left{};
-    std::array<double, 3> translation_mm{};
-};
 
 /// Both rectified cameras: the same focal length and principal point (so disparity 0 is infinitely far), rows parallel
 /// to the baseline, pictures of the source's size. In OpenCV's words: R1 = left_rectifying, R2 = right_rectifying, P1 =
@@ -39,8 +13,8 @@ struct Rectification
 {
     int width = 0;
     int height = 0;
-    Matrix3 left_rectifying{}; ///< rectified from camera
-    Matrix3 right_rectifying{};
+    Turn left_rectifying{}; ///< rectified from camera
+    Turn right_rectifying{};
     double focal_px = 0;
     double cx_px = 0;
     double cy_px = 0;
@@ -57,6 +31,6 @@ inline constexpr double kKeepAll = 1.0;
 /// the result has the same bits on every CPU. `name` stands for the rig in sentences. Fault::kBadData: not finite, no
 /// rotation, no focal length, cameras above each other, swapped or at one place, distortion that cannot be undone
 /// within the picture.
-Result<Rectification> rectify(const StereoModel& model, double keep, const char* name);
+Result<Rectification> rectify(const StereoRig& rig, double keep, const char* name);
 
 } // namespace dicot

@@ -1,17 +1,11 @@
 // Two cameras that look at the same scene, in OpenCV's conventions.
 #pragma once
 
+#include "dicot/base/lens.h"
+
 #include <array>
-#include <optional>
 
 namespace dicot {
-
-/// A position in a picture, in px; (0, 0) is the centre of the top-left pixel. Also a direction (x / z, y / z).
-struct Point2
-{
-    double x = 0;
-    double y = 0;
-};
 
 /// A position in the frame of a camera: x right, y down, z forward.
 struct Point3
@@ -29,21 +23,8 @@ Turn transposed(const Turn& turn) noexcept;
 /// First `b`, then `a`.
 Turn product(const Turn& a, const Turn& b) noexcept;
 
-/// A pinhole with Brown-Conrady distortion (Brown 1971): focal lengths and centre in px, k in the order k1 k2 p1 p2 k3.
-struct Lens
-{
-    double fx = 0;
-    double fy = 0;
-    double cx = 0;
-    double cy = 0;
-    std::array<double, 5> k{};
-};
-
 /// A point in front of a camera (z > 0) as a pixel.
 Point2 project(const Lens& lens, const Point3& point) noexcept;
-
-/// The direction from which a pixel was seen; nothing where the distortion cannot be undone.
-std::optional<Point2> undistort(const Lens& lens, Point2 pixel) noexcept;
 
 /// Two cameras: x_right = turn x_left + shift_mm. The right camera of a usable rig stands to the right: shift_mm.x < 0.
 struct StereoRig

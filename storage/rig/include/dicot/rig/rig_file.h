@@ -38,13 +38,35 @@ struct RigCamera
     friend bool operator==(const RigCamera&, const RigCamera&) = default;
 };
 
+/// What 'dicot calibrate' found out about its own result (algo/calibration/README.md says what each number means).
+struct RigQuality
+{
+    static constexpr std::size_t kVerdictBytes = 15;
+    static constexpr std::array<int, 3> kDepthsMm{500, 800, 1000};
+
+    char verdict[kVerdictBytes + 1] = {}; ///< good, usable, redo
+    int pairs = 0;                        ///< used
+    double rms_px = 0;                    ///< distance between seen and predicted corners
+    double epipolar_rms_px = 0;
+    double epipolar_p95_px = 0;
+    double held_out_mm = 0;                 ///< shape of the boards that a solution without them triangulates
+    double held_out_depth_mm = 0;           ///< their size, times their distance
+    std::array<double, 3> depth_error_mm{}; ///< standard deviation expected at kDepthsMm
+    double nearest_mm = 0;                  ///< corners
+    double farthest_mm = 0;
+
+    friend bool operator==(const RigQuality&, const RigQuality&) = default;
+};
+
 /// Lengths are in mm, whatever the file's unit. x_right = rotation * x_left + translation_mm.
 struct RigFile
 {
     static constexpr std::size_t kIdBytes = 64;
+    static constexpr std::size_t kTimeBytes = 20; // 2026-03-01T12:00:00Z
 
-    char id[kIdBytes + 1] = {}; ///< letters, digits and -_.:+ ; empty when the file names none
-    int width = 0;              ///< px, of each picture
+    char id[kIdBytes + 1] = {};              ///< letters, digits and -_.:+ ; empty when the file names none
+    char calibrated_at[kTimeBytes + 1] = {}; ///< ISO 8601, UTC; empty when the file names no time
+    int width = 0;                           ///< px, of each picture
     int height = 0;
     RigCamera left;
     RigCamera right;
@@ -53,6 +75,7 @@ struct RigFile
     std::optional<Matrix<4, 4>> reprojection;            ///< Q: mm from px
     std::optional<double> near_mm;
     std::optional<double> far_mm;
+    std::optional<RigQuality> quality;
 
     friend bool operator==(const RigFile&, const RigFile&) = default;
 };
