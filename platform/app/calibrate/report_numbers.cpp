@@ -1,0 +1,202 @@
+// The verdict and the numbers of the report.
+#include "report_page.h"
+#include "report_text.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace dicot::app {
+namespace {
+
+using calibration::Verdict;
+
+const char* headline(Verdict verdict)
+{
+    switch (verdict) {
+    case Verdict::kGood:
+        return "Good";
+    case Verdict::kUsable:
+        return "Usable";
+    case Verdict::kRedo:
+        return "Redo";
+    }
+    return "";
+}
+
+const char* meaning(Verdict verdict)
+{
+    switch (verdict) {
+    case Verdict::kGood:
+        return "This calibration can be trusted in millimetres.";
+    case Verdict::kUsable:
+        return "You can measure with this calibration, within the errors below. More pictures make it better.";
+    case Verdict::kRedo:
+        return "Do not measure with this calibration. Take the pictures again, as below.";
+    }
+    return "";
+}
+
+/// The sentence as one of its own.
+std::string sentence(const std::string& advice)
+{
+    std::string text = advice;
+    if (!text.empty() && text.front() >= 'a' && text.front() <= 'z')
+        text.front() = static_cast<char>(text.front() - 'a' + 'A');
+    return escaped(text) + (text.empty() || text.back() == '.' || text.back() == '?' ? "" : ".");
+}
+
+std::string with_deviation(double value, double deviation, int decimals)
+{
+    return deviation > 0 ? fill("{} ± {}", {fixed(value, decimals), fixed(deviation, decimals)})
+                         : fixed(value, decimals);
+}
+
+std::string row(const char* what, const std::string& value, const std::string& means)
+{
+    return fill("<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"means\">{}</td></tr>\n",
+                {what, value, means});
+}
+
+std::string lens_table(const CalibrationRun& run)
+{
+    const calibration::StereoCalibration& c = run.calibration;
+    struct Number
+    {
+        const char* name;
+        double left, right;
+        int decimals;
+        const char* means;
+    };
+    const Lens& l = c.rig.left;
+    const Lens& r = c.rig.right;
+    const std::array<Number, 9> numbers{{{"fx, px", l.fx, r.fx, 2, "focal length, along rows"},
+                                         {"fy, px", l.fy, r.fy, 2, "focal length, along columns"},
+                                         {"cx, px", l.cx, r.cx, 2, "where the axis meets the picture"},
+                                         {"cy, px", l.cy, r.cy, 2, "and its row"},
+                                         {"k1", l.k[0], r.k[0], 5, "bends lines outwards or inwards"},
+                                         {"k2", l.k[1], r.k[1], 5, "the same, near the border"},
+                                         {"p1", l.k[2], r.k[2], 5, "lens out of centre, up or down"},
+                                         {"p2", l.k[3], r.k[3], 5, "lens out of centre, sideways"},
+                                         {"k3", l.k[4], r.k[4], 5, "at the corners; 0 unless asked for"}}};
+    std::string html = "<h3>Lenses</h3>\n<table><thead><tr><th></th><th>left</th><th>right</th><th></th></tr></thead>"
+                       "<tbody>\n";
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+        const Number& n = numbers[k];
+        html += fill("<tr><th scope=\"row\">{}</th><td class=\"plain\">{}</td><td class=\"plain\">{}</td>"
+                     "<td class=\"means\">{}</td></tr>\n",
+                     {n.name, with_deviation(n.left, c.deviation(static_cast<int>(k)), n.decimals),
+                      with_deviation(n.right, c.deviation(static_cast<int>(k + numbers.size())), n.decimals), n.means});
+    }
+    return html + "</tbody></table>\n";
+}
+
+std::string rig_table(const CalibrationRun& run)
+{
+    const calibration::StereoCalibration& c = run.calibration;
+    // The turn's rotation vector: its axis times its angle.
+    const Turn& m = c.rig.turn;
+    const Point3 axis{0.5 * (m[7] - m[5]), 0.5 * (m[2] - m[6]), 0.5 * (m[3] - m[1])};
+    const double sine = std::sqrt(axis.x * axis.x + axis.y * axis.y + axis.z * axis.z);
+    const double angle = std::atan2(sine, 0.5 * (m[0] + m[4] + m[8] - 1));
+    constexpr double kDegrees = 180 / std::numbers::pi;
+    const double to_degrees = kDegrees * (sine > 0 ? angle / sine : 1);
+    constexpr int kTurn = 18;
+    constexpr int kShift = 21;
+    const auto entry = [&](const char* name, double value, double deviation, int decimals, const char* means) {
+        return fill("<tr><th scope=\"row\">{}</th><td class=\"plain\">{}</td><td class=\"means\">{}</td></tr>\n",
+                    {name, with_deviation(value, deviation, decimals), means});
+    };
+    const Point3& s = c.rig.shift_mm;
+    return "<h3>From the left to the right camera</h3>\n<table><tbody>\n" +
+           entry("T x, mm", s.x, c.deviation(kShift), 3, "the right camera stands to the right: below 0") +
+           entry("T y, mm", s.y, c.deviation(kShift + 1), 3, "up or down") +
+           entry("T z, mm", s.z, c.deviation(kShift + 2), 3, "forward or back") +
+           entry("turn about x, degrees", to_degrees * axis.x, kDegrees * c.deviation(kTurn), 4, "nods up or down") +
+           entry("turn about y, degrees", to_degrees * axis.y, kDegrees * c.deviation(kTurn + 1), 4,
+                 "towards or away from the other camera: this one makes depth wrong") +
+           entry("turn about z, degrees", to_degrees * axis.z, kDegrees * c.deviation(kTurn + 2), 4, "tilts sideways") +
+           "</tbody></table>\n";
+}
+
+} // namespace
+
+std::string verdict_section(const CalibrationRun& run)
+{
+    const calibration::Quality& q = run.quality;
+    const char* verdict = calibration::name_of(q.verdict);
+    std::string html = "<p class=\"over\">Calibration of a stereo rig";
+    if (run.rig.calibrated_at[0] != '\0')
+        html += fill(" · {}", {escaped(run.rig.calibrated_at)});
+    if (run.rig.id[0] != '\0')
+        html += fill(" · {}", {escaped(run.rig.id)});
+    html += fill("</p>\n<div class=\"verdict {}\"><h1>{}</h1><p>{}</p></div>\n",
+                 {verdict, headline(q.verdict), meaning(q.verdict)});
+    html += "<div class=\"next\"><h2>What to do next</h2>\n";
+    if (q.advice.empty()) {
+        html += "<ul><li>Use the rig file. Fix both cameras and their focus; calibrate again when one was moved.</li>"
+                "<li>Keep these pictures with your data, and check an object of known size now and then.</li></ul>";
+    } else {
+        html += "<ol>";
+        for (const std::string& advice : q.advice)
+            html += fill("<li>{}</li>", {sentence(advice)});
+        html += "</ol>";
+    }
+    html +=
+        "</div>\n<h2 id=\"millimetres\">In millimetres</h2>\n<p>How far off a depth is expected to be because of this "
+        "calibration (one standard deviation, over the part that both cameras see).</p>\n<div class=\"tiles\">\n";
+    for (const calibration::DepthError& depth : q.depth)
+        html +=
+            fill("<div class=\"tile\"><span>at {} mm</span><b>± {} <small>mm</small></b><span>{} % of the distance; "
+                 "± {} mm with the noise of one corner</span></div>\n",
+                 {fixed(depth.distance_mm, 0), fixed(depth.calibration_mm, 2),
+                  fixed(100 * depth.calibration_mm / depth.distance_mm, 2), fixed(depth.corner_mm, 2)});
+    return html + "</div>\n";
+}
+
+std::string numbers_section(const CalibrationRun& run)
+{
+    const calibration::Quality& q = run.quality;
+    const calibration::StereoCalibration& c = run.calibration;
+    std::string html = "<table><tbody>\n";
+    html +=
+        row("Held-out shape", fixed(q.held_out_mm, 2) + " mm",
+            fill("Boards of {} pairs, each measured by a solution that had not seen it: distance of the corners from "
+                 "their true places on the board (RMS).",
+                 {q.held_out_pairs}));
+    html += row("Held-out depth", fixed(q.held_out_depth_mm, 2) + " mm",
+                fill("The same boards come out this much too near or too far, by their size, which is {} % off (RMS).",
+                     {fixed(q.held_out_size_percent, 2)}));
+    html += row("Epipolar RMS", fixed(q.epipolar_rms_px, 3) + " px",
+                "By how much the two pictures miss each other's rows. The matcher looks along one row only.");
+    html += row("Epipolar 95 %", fixed(q.epipolar_p95_px, 3) + " px", "95 of 100 corners are better than this.");
+    html += row("RMS", fixed(c.rms_px, 3) + " px",
+                fill("Between where corners were seen and where the solution expects them; left {}, right {}.",
+                     {fixed(c.rms_left_px, 3), fixed(c.rms_right_px, 3)}));
+    html += row("Corner noise", fixed(c.sigma_px, 3) + " px",
+                "Standard deviation of one coordinate of a corner, estimated from the same.");
+    html += row("Baseline", with_deviation(c.rig.baseline_mm(), baseline_deviation_mm(c), 3) + " mm",
+                "Distance between the two cameras. Depth is in proportion to it.");
+    html += row("Focal lengths",
+                fill("{} and {} px", {with_deviation(c.rig.left.fx, c.deviation(0), 1),
+                                      with_deviation(c.rig.right.fx, c.deviation(9), 1)}),
+                "fx of the left and of the right lens; larger sees less, but in more detail.");
+    html += row("Pairs", fill("{} of {}", {c.pairs_used, run.pairs.size()}), "Used, of those that were given.");
+    html += row("Pictures", fill("{} x {} px", {run.task.width, run.task.height}),
+                "The calibration holds for pictures of this size and shape alone.");
+    std::string boards;
+    for (const calibration::Board& board : run.task.boards)
+        boards +=
+            fill("{}{} x {}, {} mm", {boards.empty() ? "" : "; ", board.cols, board.rows, fixed(board.square_mm, 2)});
+    html += row("Board", boards, "Inner corners, and the side of a square as it was given.");
+    html += row("Corners", fill("{} to {} mm", {fixed(q.nearest_mm, 0), fixed(q.farthest_mm, 0)}),
+                "Distances that were seen. Nearer and farther, the errors above are guesses.");
+    if (run.rig.calibrated_at[0] != '\0')
+        html += row("Date", escaped(run.rig.calibrated_at), "As written into the rig file.");
+    if (run.rig.id[0] != '\0')
+        html += row("Calibration", fill("<code>{}</code>", {escaped(run.rig.id)}),
+                    "Every cloud made with it carries this name.");
+    return html + "</tbody></table>\n<div class=\"two\">\n<div>" + lens_table(run) + "</div>\n<div>" + rig_table(run) +
+           "</div>\n</div>\n";
+}
+
+} // namespace dicot::app
