@@ -65,29 +65,31 @@ std::string lens_table(const CalibrationRun& run)
         const char* name;
         double left, right;
         int decimals;
-        const char* means;
     };
     const Lens& l = c.rig.left;
     const Lens& r = c.rig.right;
-    const std::array<Number, 9> numbers{{{"fx, px", l.fx, r.fx, 2, "focal length, along rows"},
-                                         {"fy, px", l.fy, r.fy, 2, "focal length, along columns"},
-                                         {"cx, px", l.cx, r.cx, 2, "where the axis meets the picture"},
-                                         {"cy, px", l.cy, r.cy, 2, "and its row"},
-                                         {"k1", l.k[0], r.k[0], 5, "bends lines outwards or inwards"},
-                                         {"k2", l.k[1], r.k[1], 5, "the same, near the border"},
-                                         {"p1", l.k[2], r.k[2], 5, "lens out of centre, up or down"},
-                                         {"p2", l.k[3], r.k[3], 5, "lens out of centre, sideways"},
-                                         {"k3", l.k[4], r.k[4], 5, "at the corners; 0 unless asked for"}}};
-    std::string html = "<h3>Lenses</h3>\n<table><thead><tr><th></th><th>left</th><th>right</th><th></th></tr></thead>"
+    const std::array<Number, 9> numbers{{{"fx, px", l.fx, r.fx, 2},
+                                         {"fy, px", l.fy, r.fy, 2},
+                                         {"cx, px", l.cx, r.cx, 2},
+                                         {"cy, px", l.cy, r.cy, 2},
+                                         {"k1", l.k[0], r.k[0], 5},
+                                         {"k2", l.k[1], r.k[1], 5},
+                                         {"p1", l.k[2], r.k[2], 5},
+                                         {"p2", l.k[3], r.k[3], 5},
+                                         {"k3", l.k[4], r.k[4], 5}}};
+    std::string html = "<h3>Lenses</h3>\n<table><thead><tr><th></th><th>left</th><th>right</th></tr></thead>"
                        "<tbody>\n";
     for (std::size_t k = 0; k < numbers.size(); ++k) {
         const Number& n = numbers[k];
-        html += fill("<tr><th scope=\"row\">{}</th><td class=\"plain\">{}</td><td class=\"plain\">{}</td>"
-                     "<td class=\"means\">{}</td></tr>\n",
+        html += fill("<tr><th scope=\"row\">{}</th><td class=\"plain\">{}</td><td class=\"plain\">{}</td></tr>\n",
                      {n.name, with_deviation(n.left, c.deviation(static_cast<int>(k)), n.decimals),
-                      with_deviation(n.right, c.deviation(static_cast<int>(k + numbers.size())), n.decimals), n.means});
+                      with_deviation(n.right, c.deviation(static_cast<int>(k + numbers.size())), n.decimals)});
     }
-    return html + "</tbody></table>\n";
+    return html +
+           "</tbody></table>\n<p class=\"note\">fx, fy: focal length along rows and columns. cx, cy: where the axis "
+           "meets the picture. k1 k2 k3: how straight lines bend, from the middle to the border; a number without ± "
+           "was "
+           "not fitted. p1 p2: a lens that sits out of centre.</p>\n";
 }
 
 std::string rig_table(const CalibrationRun& run)
@@ -102,20 +104,22 @@ std::string rig_table(const CalibrationRun& run)
     const double to_degrees = kDegrees * (sine > 0 ? angle / sine : 1);
     constexpr int kTurn = 18;
     constexpr int kShift = 21;
-    const auto entry = [&](const char* name, double value, double deviation, int decimals, const char* means) {
-        return fill("<tr><th scope=\"row\">{}</th><td class=\"plain\">{}</td><td class=\"means\">{}</td></tr>\n",
-                    {name, with_deviation(value, deviation, decimals), means});
+    const auto entry = [&](const char* name, double value, double deviation, int decimals) {
+        return fill("<tr><th scope=\"row\">{}</th><td class=\"plain\">{}</td></tr>\n",
+                    {name, with_deviation(value, deviation, decimals)});
     };
     const Point3& s = c.rig.shift_mm;
-    return "<h3>From the left to the right camera</h3>\n<table><tbody>\n" +
-           entry("T x, mm", s.x, c.deviation(kShift), 3, "the right camera stands to the right: below 0") +
-           entry("T y, mm", s.y, c.deviation(kShift + 1), 3, "up or down") +
-           entry("T z, mm", s.z, c.deviation(kShift + 2), 3, "forward or back") +
-           entry("turn about x, degrees", to_degrees * axis.x, kDegrees * c.deviation(kTurn), 4, "nods up or down") +
-           entry("turn about y, degrees", to_degrees * axis.y, kDegrees * c.deviation(kTurn + 1), 4,
-                 "towards or away from the other camera: this one makes depth wrong") +
-           entry("turn about z, degrees", to_degrees * axis.z, kDegrees * c.deviation(kTurn + 2), 4, "tilts sideways") +
-           "</tbody></table>\n";
+    return "<h3>From the left to the right camera</h3>\n<table><thead><tr><th></th><th>x_right = R x_left + T</th></tr>"
+           "</thead><tbody>\n" +
+           entry("T x, mm", s.x, c.deviation(kShift), 3) + entry("T y, mm", s.y, c.deviation(kShift + 1), 3) +
+           entry("T z, mm", s.z, c.deviation(kShift + 2), 3) +
+           entry("R about x, degrees", to_degrees * axis.x, kDegrees * c.deviation(kTurn), 4) +
+           entry("R about y, degrees", to_degrees * axis.y, kDegrees * c.deviation(kTurn + 1), 4) +
+           entry("R about z, degrees", to_degrees * axis.z, kDegrees * c.deviation(kTurn + 2), 4) +
+           "</tbody></table>\n<p class=\"note\">x points to the right, y down, z away from the camera. T x is below 0, "
+           "as "
+           "the right camera stands to the right. Depth suffers most from the turn about y: towards or away from the "
+           "other camera.</p>\n";
 }
 
 } // namespace
@@ -157,7 +161,7 @@ std::string numbers_section(const CalibrationRun& run)
 {
     const calibration::Quality& q = run.quality;
     const calibration::StereoCalibration& c = run.calibration;
-    std::string html = "<table><tbody>\n";
+    std::string html = "<table class=\"facts\"><tbody>\n";
     html +=
         row("Held-out shape", fixed(q.held_out_mm, 2) + " mm",
             fill("Boards of {} pairs, each measured by a solution that had not seen it: distance of the corners from "

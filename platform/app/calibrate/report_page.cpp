@@ -26,6 +26,11 @@ std::string listed(const std::vector<std::string>& words)
     return all;
 }
 
+const char* title_of(Eye eye)
+{
+    return eye == Eye::kLeft ? "Left" : "Right";
+}
+
 std::string key(Eye eye)
 {
     return fill("<i class=\"key {}\"></i>", {name_of(eye)});
@@ -49,7 +54,7 @@ std::string coverage_section(const CalibrationRun& run)
         const std::vector<std::string> empty = empty_parts(coverage);
         html += figure(name_of(eye), coverage_chart(run, eye, corner_misses(run, eye)),
                        fill("<b>{} camera.</b> Corners in {} % of the cells. {}",
-                            {eye == Eye::kLeft ? "Left" : "Right", fixed(100 * coverage.share, 0),
+                            {title_of(eye), fixed(100 * coverage.share, 0),
                              empty.empty() ? "No part is left out." : fill("Mostly empty: {}.", {listed(empty)})}));
     }
     html += "</div>\n<h3>Distance</h3>\n";
@@ -82,17 +87,23 @@ std::string residual_section(const CalibrationRun& run)
                        "<p>What is left between where a corner was seen and where the solution expects it. Good "
                        "calibrations leave round clouds around zero and arrows without a common direction.</p>\n"
                        "<div class=\"two\">\n";
-    const double factor = arrow_factor(run.calibration.rms_px, run.task.width);
+    const std::array<std::vector<CornerMiss>, 2> misses{corner_misses(run, Eye::kLeft),
+                                                        corner_misses(run, Eye::kRight)};
+    const double reach =
+        std::max(scatter_reach(misses[0], rms_of(run, Eye::kLeft)), scatter_reach(misses[1], rms_of(run, Eye::kRight)));
     for (const Eye eye : kEyes) {
-        const std::vector<CornerMiss> misses = corner_misses(run, eye);
-        html += figure(fill("small {}", {name_of(eye)}).c_str(), scatter_chart(misses, rms_of(run, eye)),
-                       fill("<b>{} camera.</b> {} corners; half and whole scale as circles, the RMS of {} px dashed.",
-                            {eye == Eye::kLeft ? "Left" : "Right", misses.size(), fixed(rms_of(run, eye), 3)}));
+        const std::vector<CornerMiss>& own = misses[eye == Eye::kLeft ? 0 : 1];
+        html += figure(eye == Eye::kLeft ? "small left" : "small right", scatter_chart(own, rms_of(run, eye), reach),
+                       fill("<b>{} camera.</b> {} corners; dashed: the RMS of {} px.",
+                            {title_of(eye), own.size(), fixed(rms_of(run, eye), 3)}));
     }
+    const double factor = arrow_factor(run.calibration.rms_px, run.task.width);
     for (const Eye eye : kEyes)
-        html += figure(name_of(eye), arrow_chart(corner_misses(run, eye), run.task.width, run.task.height, factor),
-                       fill("<b>{} camera.</b> From the seen corner, {} times as long as it is.",
-                            {eye == Eye::kLeft ? "Left" : "Right", fixed(factor, factor < 1 ? 1 : 0)}));
+        html += figure(
+            name_of(eye), arrow_chart(misses[eye == Eye::kLeft ? 0 : 1], run.task.width, run.task.height, factor),
+            fill("<b>{} camera.</b> From the expected place towards where the corner was seen, drawn {} times "
+                 "as long as it is.",
+                 {title_of(eye), fixed(factor, factor < 1 ? 1 : 0)}));
     return html + "</div>\n<h3>By pair</h3>\n" +
            figure(
                "", pair_bars(run),
@@ -112,27 +123,34 @@ std::string rectified_section(const CalibrationRun& run, const Result<Rectificat
         fill("<p>After rectification a point lies on the same row of both pictures. <b>Rows agree within {} px</b> for "
              "95 of 100 corners of all used pairs; RMS {} px, the worst {} px.</p>\n",
              {fixed(all.p95_px, 2), fixed(all.rms_px, 3), fixed(all.most_px, 2)});
-    if (shown && !pictures.left.file.empty() && !pictures.right.file.empty()) {
+    RowGaps own;
+    if (shown) {
         const SeenPair& pair = run.pairs[*shown];
-        RowGaps own;
         own.add(run.calibration.rig, flat.value(), pair.left.corners, pair.right.corners);
         own.sum_up();
-        html += figure("", rectified_drawing(run, flat.value(), pair, pictures),
-                       fill("Pair {}, both pictures as the matcher sees them. Follow a line from left to right: it "
-                            "crosses the same things. Crosses are the corners; here the rows agree within {} px (95 of "
-                            "100), RMS {} px.",
-                            {*shown + 1, fixed(own.p95_px, 2), fixed(own.rms_px, 3)}));
-    } else {
-        for (const ReportPicture* picture : {&pictures.left, &pictures.right})
-            if (!picture->missing.empty())
-                html += fill("<p class=\"note\">No picture here: {}</p>\n", {escaped(picture->missing)});
+        if (!pictures.left.file.empty() && !pictures.right.file.empty())
+            html +=
+                figure("", rectified_drawing(run, flat.value(), pair, pictures),
+                       fill("<a href=\"#pair-{}\">Pair {}</a>, both pictures as the matcher sees them. Follow a line "
+                            "from left to right: it crosses the same things. Crosses are the corners.",
+                            {*shown + 1, *shown + 1}));
     }
+    for (const ReportPicture* picture : {&pictures.left, &pictures.right})
+        if (!picture->missing.empty())
+            html += fill("<p class=\"note\">No picture here: {}</p>\n", {escaped(picture->missing)});
+    const auto line = [&](const char* what, double every, double one) {
+        return fill("<tr><th scope=\"row\">{}</th><td class=\"plain\">{} px</td><td class=\"plain\">{}</td></tr>\n",
+                    {what, fixed(every, 3), own.gaps_px.empty() ? "" : fixed(one, 3) + " px"});
+    };
     return html + "<div class=\"two\">\n" +
            figure("", gap_histogram(all),
                   fill("Row in the left minus row in the right rectified picture, {} corners. The outermost bars hold "
                        "what lies beyond.",
                        {all.gaps_px.size()})) +
-           "</div>\n";
+           "<div><table><thead><tr><th>rows differ by</th><th>all used pairs</th><th>" +
+           (shown ? fill("pair {}", {*shown + 1}) : "") + "</th></tr></thead><tbody>\n" +
+           line("RMS", all.rms_px, own.rms_px) + line("95 of 100 below", all.p95_px, own.p95_px) +
+           line("worst corner", all.most_px, own.most_px) + "</tbody></table></div>\n</div>\n";
 }
 
 std::string pairs_section(const CalibrationRun& run, const std::vector<PairPictures>& pictures)
@@ -142,8 +160,8 @@ std::string pairs_section(const CalibrationRun& run, const std::vector<PairPictu
         if (!is_used(run, run.pairs[p]))
             out.push_back(fill("<a href=\"#pair-{}\">{}</a>", {p + 1, p + 1}));
     std::string html = heading("pairs", "Pairs") + fill("<p>{} of {} pairs were used{}. Corners are coloured and "
-                                                        "joined row by row; the white ring is the first. The "
-                                                        "same corner must come first on both sides.</p>\n",
+                                                        "joined row by row; the filled dot is the first. It "
+                                                        "must be the same corner on both sides.</p>\n",
                                                         {run.calibration.pairs_used, run.pairs.size(),
                                                          out.empty() ? "" : ", not used: " + listed(out)});
     for (std::size_t p = 0; p < run.pairs.size(); ++p) {

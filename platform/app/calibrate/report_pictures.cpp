@@ -163,7 +163,7 @@ std::string corner_drawing(const ReportPicture& picture, const std::string& labe
         svg += fill(R"(<polyline class="chain row{}" points="{}"/>)", {first / per_row % 7, points});
     }
     if (!sight.corners.empty())
-        svg += fill(R"(<circle class="first" cx="{}" cy="{}" r="6"/>)",
+        svg += fill(R"(<circle class="first" cx="{}" cy="{}" r="5"/>)",
                     {fixed(scale * (sight.corners[0].x + 0.5), 1), fixed(scale * (sight.corners[0].y + 0.5), 1)});
     return svg + "</svg>\n";
 }
@@ -185,7 +185,7 @@ std::string rectified_drawing(const CalibrationRun& run, const Rectification& fl
                     {eye == Eye::kLeft ? pictures.left.file : pictures.right.file, x0, width, height});
         for (const Point2& corner : eye == Eye::kLeft ? pair.left.corners : pair.right.corners)
             if (const auto p = rectified(run.calibration.rig, flat, eye, corner))
-                crosses += fill("M{} {}m-4 0h8m-4 -4v8",
+                crosses += fill("M{} {}m-6 0h12m-6 -6v12",
                                 {fixed(x0 + scale * (p->x + 0.5), 1), fixed(scale * (p->y + 0.5), 1)});
     }
     for (int k = 0; k < kLines; ++k)

@@ -33,7 +33,7 @@ constexpr int kThumbnailWidth = 480;
 Result<PairPictures> write_rectified(const CalibrationRun& run, const SeenPair& pair, const std::string& folder);
 constexpr int kRectifiedWidth = 800;
 
-/// The small picture with its corners: coloured and joined row by row, the first one ringed.
+/// The small picture with its corners: coloured and joined row by row, the first one filled.
 std::string corner_drawing(const ReportPicture& picture, const std::string& label, const CalibrationRun& run,
                            const calibration::BoardSight& sight, int board);
 

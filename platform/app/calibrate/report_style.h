@@ -24,7 +24,8 @@ body {
 }
 h1, h2, h3, p, ol, ul, figure, table { margin: 0; }
 a { color: inherit; text-underline-offset: 3px; text-decoration-color: var(--quiet); }
-.over { color: var(--quiet); font-size: 14px; }
+.over { color: var(--quiet); font-size: 14px; overflow-wrap: anywhere; }
+code { white-space: normal; overflow-wrap: anywhere; font-size: 14px; }
 .verdict { border-left: 8px solid var(--tone); padding: 2px 0 4px 24px; margin: 14px 0 30px; }
 .verdict h1 { color: var(--tone); font-size: 46px; line-height: 1.15; letter-spacing: -0.02em; }
 .verdict p { font-size: 19px; margin-top: 4px; max-width: 46em; }
@@ -46,14 +47,14 @@ h2 + p, .note { color: var(--quiet); max-width: 52em; }
 .tile span { display: block; color: var(--quiet); font-size: 14px; }
 table { border-collapse: collapse; width: 100%; margin-top: 14px; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; vertical-align: baseline; padding: 7px 16px 7px 0; border-bottom: 1px solid var(--rule); }
-th { font-weight: 600; }
+th { font-weight: 600; white-space: nowrap; }
 thead th { color: var(--quiet); font-weight: 400; font-size: 14px; }
 td.number { white-space: nowrap; font-weight: 600; }
 td.plain { white-space: nowrap; }
 td.means { color: var(--quiet); font-size: 15px; }
 .two { display: grid; grid-template-columns: 1fr 1fr; gap: 28px 40px; margin-top: 14px; }
-.lens { max-width: 760px; }
 figure { min-width: 0; }
+p + figure, figure + .two { margin-top: 18px; }
 figcaption { font-size: 14px; color: var(--quiet); margin-top: 6px; }
 figcaption b { color: var(--ink); font-weight: 600; }
 .left { --eye: var(--left); } .right { --eye: var(--right); }
@@ -63,9 +64,9 @@ svg.shared { position: absolute; width: 0; height: 0; }
 .key { display: inline-block; width: 11px; height: 11px; margin: 0 5px 0 0; border-radius: 2px; background: var(--eye); }
 .frame { fill: none; stroke: var(--rule); }
 .cell { fill: var(--leaf); stroke: var(--paper); stroke-width: 1.5; }
-.none { fill: url(#hatch); } .hatch { stroke: var(--hatch); stroke-width: 1; fill: none; }
+.none { fill: url(#hatch); } .hatch { stroke: var(--hatch); stroke-width: 1; stroke-opacity: 0.55; fill: none; }
 .dots { stroke: var(--ink); stroke-width: 2.6; stroke-linecap: round; stroke-opacity: 0.55; }
-.dots.eye { stroke: var(--eye); stroke-width: 3; stroke-opacity: 0.5; }
+.dots.eye { stroke: var(--eye); stroke-width: 3; stroke-opacity: 0.65; }
 .shaft { fill: none; stroke: var(--eye); stroke-width: 1; }
 .feet { stroke: var(--eye); stroke-width: 2.6; stroke-linecap: round; }
 .grid { fill: none; stroke: var(--quiet); stroke-opacity: 0.45; }
@@ -76,7 +77,7 @@ svg.shared { position: absolute; width: 0; height: 0; }
 .bar.dropped { fill: none; stroke: var(--eye); stroke-width: 1.5; stroke-dasharray: 3 2; }
 .label { fill: var(--quiet); } .middle { text-anchor: middle; } .end { text-anchor: end; }
 .chain { fill: none; stroke-width: 1; } .ring { fill: none; stroke-width: 1.6; }
-.first { fill: none; stroke: #ffffff; stroke-width: 2.4; }
+.first { fill: #ff3b30; stroke: #ffffff; stroke-width: 1.6; }
 .row0 { stroke: #ff3b30; } .row1 { stroke: #ff9500; } .row2 { stroke: #ffe000; } .row3 { stroke: #2fd65a; }
 .row4 { stroke: #00d5e0; } .row5 { stroke: #3d8bff; } .row6 { stroke: #ff4fd8; }
 .chain.row0 { marker-mid: url(#ring0); marker-end: url(#ring0); }
@@ -86,8 +87,8 @@ svg.shared { position: absolute; width: 0; height: 0; }
 .chain.row4 { marker-mid: url(#ring4); marker-end: url(#ring4); }
 .chain.row5 { marker-mid: url(#ring5); marker-end: url(#ring5); }
 .chain.row6 { marker-mid: url(#ring6); marker-end: url(#ring6); }
-.row-line { stroke: #27e05f; stroke-width: 1; stroke-opacity: 0.85; }
-.cross { stroke: #ff3b30; stroke-width: 1.2; fill: none; }
+.row-line { stroke: #2cff6c; stroke-width: 1.2; vector-effect: non-scaling-stroke; }
+.cross { stroke: #ff2d20; stroke-width: 1.4; fill: none; vector-effect: non-scaling-stroke; }
 .pair { display: grid; grid-template-columns: 176px 1fr 1fr; gap: 0 16px; padding: 16px 0; border-bottom: 1px solid var(--rule); }
 .pair h3 { margin: 0; font-size: 20px; }
 .pair p { font-size: 14px; overflow-wrap: anywhere; }
@@ -96,7 +97,11 @@ svg.shared { position: absolute; width: 0; height: 0; }
 .pair.out .state { color: var(--redo); }
 .pair .lost { color: var(--redo); }
 .pair svg { border-radius: 3px; }
-@media (max-width: 800px) {
+@media screen and (max-width: 800px) {
+  .facts tr { display: grid; grid-template-columns: 1fr 1.4fr; padding: 8px 0; border-bottom: 1px solid var(--rule); }
+  .facts th, .facts td { border: 0; padding: 0; }
+  .facts td.number { white-space: normal; }
+  .facts .means { grid-column: 1 / 3; }
   body { padding: 24px 18px 48px; }
   .two, .tiles, .pair { grid-template-columns: 1fr; gap: 16px; }
   .tiles { gap: 1px; }
@@ -110,7 +115,12 @@ svg.shared { position: absolute; width: 0; height: 0; }
     --good: #24713d; --usable: #8a6200; --redo: #b3261e; --hatch: #c4574e;
   }
   * { -webkit-print-color-adjust: exact; print-color-adjust: exact; }
-  body { max-width: none; padding: 0; font-size: 11pt; }
+  @page { margin: 14mm; }
+  body { max-width: none; padding: 0; font-size: 10pt; }
+  td.means, h2 + p, .pair p { font-size: 9pt; }
+  .pair { grid-template-columns: 110px 1fr 1fr; }
+  h2 { margin-top: 28px; }
+  .two { gap: 16px 24px; }
   .pair, figure, tr, .next, .verdict { break-inside: avoid; }
   h2, h3 { break-after: avoid; }
 }

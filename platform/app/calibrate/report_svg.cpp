@@ -52,9 +52,13 @@ private:
     std::string path_;
 };
 
-int decimals_of(double step)
+/// With as many decimals as a mark of a scale (1, 2, 2.5 or 5 times a power of ten) needs.
+std::string mark_of(double value)
 {
-    return step >= 1 ? 0 : step >= 0.1 ? 1 : step >= 0.01 ? 2 : 3;
+    int decimals = 0;
+    for (double size = value; decimals < 6 && std::abs(size - std::floor(size + 0.5)) > 1e-6; size *= 10)
+        ++decimals;
+    return fixed(value, decimals);
 }
 
 } // namespace
@@ -135,13 +139,17 @@ std::string distance_chart(const CalibrationRun& run)
     return svg + "</svg>\n";
 }
 
-std::string scatter_chart(std::span<const CornerMiss> misses, double rms_px)
+double scatter_reach(std::span<const CornerMiss> misses, double rms_px)
 {
-    constexpr double kSide = 330, kMiddle = kSide / 2, kRadius = 140;
     double most = 0;
     for (const CornerMiss& m : misses)
         most = std::max({most, std::abs(m.miss.x), std::abs(m.miss.y)});
-    const double reach = round_up(std::max(1e-3, std::min(most, 4 * rms_px)));
+    return round_up(std::max(1e-3, std::min(most, 4 * rms_px)));
+}
+
+std::string scatter_chart(std::span<const CornerMiss> misses, double rms_px, double reach)
+{
+    constexpr double kSide = 330, kMiddle = kSide / 2, kRadius = 140;
     const double scale = kRadius / reach;
     std::string svg = begin(kSide, kSide, "Misses of the corners around zero");
     svg += line(0, kMiddle, kSide, kMiddle, "grid") + line(kMiddle, 0, kMiddle, kSide, "grid");
@@ -156,8 +164,7 @@ std::string scatter_chart(std::span<const CornerMiss> misses, double rms_px)
     svg += dots.drawn("dots eye");
     for (const double part : {0.5, 1.0}) {
         svg += fill(R"(<circle class="grid" cx="{}" cy="{}" r="{}"/>)", {at(kMiddle), at(kMiddle), at(part * kRadius)});
-        svg += words(kMiddle + 4, kMiddle - part * kRadius - 4, "label",
-                     fixed(part * reach, decimals_of(part * reach)) + " px");
+        svg += words(kMiddle + 4, kMiddle - part * kRadius - 4, "label", mark_of(part * reach) + " px");
     }
     svg += fill(R"(<circle class="mark" cx="{}" cy="{}" r="{}"/>)",
                 {at(kMiddle), at(kMiddle), at(std::min(scale * rms_px, kRadius))});
@@ -168,7 +175,7 @@ std::string scatter_chart(std::span<const CornerMiss> misses, double rms_px)
 
 double arrow_factor(double rms_px, int width)
 {
-    const double wanted = width / 40.0 / std::max(rms_px, 1e-6);
+    const double wanted = width / 60.0 / std::max(rms_px, 1e-6);
     const double above = round_up(wanted);
     return above > wanted ? round_up(0.45 * above) : above; // the step below: 5 -> 2, 2 -> 1, 1 -> 0.5
 }
@@ -181,8 +188,8 @@ std::string arrow_chart(std::span<const CornerMiss> misses, int width, int heigh
     Dots feet;
     std::string shafts;
     for (const CornerMiss& m : misses) {
-        const double x = scale * (m.seen.x + 0.5);
-        const double y = scale * (m.seen.y + 0.5);
+        const double x = scale * (m.seen.x - m.miss.x + 0.5);
+        const double y = scale * (m.seen.y - m.miss.y + 0.5);
         feet.add(x, y);
         shafts += fill("M{} {}l{} {}", {at(x), at(y), at(scale * factor * m.miss.x), at(scale * factor * m.miss.y)});
     }
@@ -203,8 +210,7 @@ std::string pair_bars(const CalibrationRun& run)
     std::string svg = begin(kWidth, kHeight, "Root mean square miss of each pair");
     for (const double part : {0.0, 0.5, 1.0}) {
         svg += line(kLeft, y_of(part * top), kWidth, y_of(part * top), part == 0 ? "axis" : "grid");
-        svg += words(kLeft - 8, y_of(part * top) + 4, "label end",
-                     part == 0 ? "0 px" : fixed(part * top, decimals_of(part * top)));
+        svg += words(kLeft - 8, y_of(part * top) + 4, "label end", part == 0 ? "0 px" : mark_of(part * top));
     }
     for (std::size_t p = 0; p < run.pairs.size(); ++p) {
         const double x = kLeft + static_cast<double>(p) * step;
@@ -220,10 +226,9 @@ std::string pair_bars(const CalibrationRun& run)
             const std::string kind = std::string("bar ") + name_of(eye) + (view->used ? "" : " dropped");
             bars += box(eye == Eye::kLeft ? middle - bar : middle, y, bar - 1, kFoot - y, kind.c_str(),
                         fill("pair {}, {}: {} px", {p + 1, name_of(eye), fixed(px, 3)}));
-            if (px > top)
-                bars += words(eye == Eye::kLeft ? middle - 2 : middle + 2, kTop - 6,
-                              eye == Eye::kLeft ? "label end" : "label", fixed(px, 1));
         }
+        if (view != nullptr && std::max(view->rms_left_px, view->rms_right_px) > top)
+            bars += words(middle, kTop - 6, "label middle", fixed(std::max(view->rms_left_px, view->rms_right_px), 1));
         if (bars.empty())
             bars = words(middle, kFoot - 6, "label middle", "–");
         svg += fill("<a href=\"#pair-{}\">", {p + 1}) + bars;
@@ -255,13 +260,12 @@ std::string gap_histogram(const RowGaps& gaps)
                        fill("{} corners", {counts[bin]}));
     }
     svg += line(0, kFoot, kWidth, kFoot, "axis") + line(kWidth / 2, kTop - 8, kWidth / 2, kFoot, "grid");
-    const int decimals = decimals_of(reach / 2);
     for (const double part : {-1.0, -0.5, 0.0, 0.5, 1.0})
         svg += words(kWidth / 2 + part * (kWidth / 2 - kMargin), kFoot + 18,
                      part == -1  ? "label"
                      : part == 1 ? "label end"
                                  : "label middle",
-                     part == 0 ? "0" : (part < 0 ? "−" : "+") + fixed(std::abs(part) * reach, decimals) + " px");
+                     part == 0 ? "0" : (part < 0 ? "−" : "+") + mark_of(std::abs(part) * reach) + " px");
     return svg + "</svg>\n";
 }
 
