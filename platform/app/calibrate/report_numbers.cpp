@@ -57,6 +57,11 @@ std::string row(const char* what, const std::string& value, const std::string& m
                 {what, value, means});
 }
 
+std::string up_to(const calibration::Gate<double>& gate, const char* unit)
+{
+    return fill("Good up to {} {}, usable up to {} {}.", {fixed(gate.good, 2), unit, fixed(gate.usable, 2), unit});
+}
+
 std::string lens_table(const CalibrationRun& run)
 {
     const calibration::StereoCalibration& c = run.calibration;
@@ -146,8 +151,10 @@ std::string verdict_section(const CalibrationRun& run)
         html += "</ol>";
     }
     html +=
-        "</div>\n<h2 id=\"millimetres\">In millimetres</h2>\n<p>How far off a depth is expected to be because of this "
-        "calibration (one standard deviation, over the part that both cameras see).</p>\n<div class=\"tiles\">\n";
+        fill("</div>\n<h2 id=\"millimetres\">In millimetres</h2>\n<p>How far off a depth is expected to be because of "
+             "this calibration: one standard deviation, over the part that both cameras see. At 800 mm, {} % of the "
+             "distance are good and {} % usable.</p>\n<div class=\"tiles\">\n",
+             {fixed(calibration::kDepthGate_percent.good, 1), fixed(calibration::kDepthGate_percent.usable, 1)});
     for (const calibration::DepthError& depth : q.depth)
         html +=
             fill("<div class=\"tile\"><span>at {} mm</span><b>± {} <small>mm</small></b><span>{} % of the distance; "
@@ -168,10 +175,12 @@ std::string numbers_section(const CalibrationRun& run)
                  "their true places on the board (RMS).",
                  {q.held_out_pairs}));
     html += row("Held-out depth", fixed(q.held_out_depth_mm, 2) + " mm",
-                fill("The same boards come out this much too near or too far, by their size, which is {} % off (RMS).",
-                     {fixed(q.held_out_size_percent, 2)}));
+                fill("The same boards come out this much too near or too far, by their size, which is {} % off "
+                     "(RMS). {}",
+                     {fixed(q.held_out_size_percent, 2), up_to(calibration::kDepthGate_percent, "%")}));
     html += row("Epipolar RMS", fixed(q.epipolar_rms_px, 3) + " px",
-                "By how much the two pictures miss each other's rows. The matcher looks along one row only.");
+                fill("By how much the two pictures miss each other's rows; the matcher looks along one row only. {}",
+                     {up_to(calibration::kEpipolarGate_px, "px")}));
     html += row("Epipolar 95 %", fixed(q.epipolar_p95_px, 3) + " px", "95 of 100 corners are better than this.");
     html += row("RMS", fixed(c.rms_px, 3) + " px",
                 fill("Between where corners were seen and where the solution expects them; left {}, right {}.",
@@ -184,7 +193,9 @@ std::string numbers_section(const CalibrationRun& run)
                 fill("{} and {} px", {with_deviation(c.rig.left.fx, c.deviation(0), 1),
                                       with_deviation(c.rig.right.fx, c.deviation(9), 1)}),
                 "fx of the left and of the right lens; larger sees less, but in more detail.");
-    html += row("Pairs", fill("{} of {}", {c.pairs_used, run.pairs.size()}), "Used, of those that were given.");
+    html += row("Pairs", fill("{} of {}", {c.pairs_used, run.pairs.size()}),
+                fill("Used, of those that were given. Good from {}, usable from {}.",
+                     {calibration::kPairsGate.good, calibration::kPairsGate.usable}));
     html += row("Pictures", fill("{} x {} px", {run.task.width, run.task.height}),
                 "The calibration holds for pictures of this size and shape alone.");
     std::string boards;
