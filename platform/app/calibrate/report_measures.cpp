@@ -47,9 +47,14 @@ std::vector<CornerMiss> corner_misses(const CalibrationRun& run, Eye eye)
     return misses;
 }
 
+bool is_solved(const CalibrationRun& run)
+{
+    return !run.calibration.views.empty();
+}
+
 const calibration::ViewOutcome* outcome_of(const CalibrationRun& run, const SeenPair& pair)
 {
-    return pair.view < 0 ? nullptr : &run.calibration.views[static_cast<std::size_t>(pair.view)];
+    return pair.view < 0 || !is_solved(run) ? nullptr : &run.calibration.views[static_cast<std::size_t>(pair.view)];
 }
 
 bool is_used(const CalibrationRun& run, const SeenPair& pair)

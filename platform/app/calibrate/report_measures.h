@@ -30,9 +30,12 @@ struct CornerMiss
 /// All corners that the solution rests on, in the order of the task.
 std::vector<CornerMiss> corner_misses(const CalibrationRun& run, Eye eye);
 
+/// Whether there is a calibration; a refused one leaves the pairs alone.
+bool is_solved(const CalibrationRun& run);
+
 /// Whether the pair was given to the solver and kept with both of its pictures.
 bool is_used(const CalibrationRun& run, const SeenPair& pair);
-/// What the solver says of the pair; null when it was not given to it.
+/// What the solver says of the pair; null when it was not given to it, or refused all.
 const calibration::ViewOutcome* outcome_of(const CalibrationRun& run, const SeenPair& pair);
 /// Why the pair is not used, or used for one lens alone; empty when it is used.
 std::string reason_of(const CalibrationRun& run, const SeenPair& pair);

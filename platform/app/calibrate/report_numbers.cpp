@@ -122,9 +122,8 @@ std::string rig_table(const CalibrationRun& run)
            entry("R about y, degrees", to_degrees * axis.y, kDegrees * c.deviation(kTurn + 1), 4) +
            entry("R about z, degrees", to_degrees * axis.z, kDegrees * c.deviation(kTurn + 2), 4) +
            "</tbody></table>\n<p class=\"note\">x points to the right, y down, z away from the camera. T x is below 0, "
-           "as "
-           "the right camera stands to the right. Depth suffers most from the turn about y: towards or away from the "
-           "other camera.</p>\n";
+           "as the right camera stands to the right. Depth suffers most from the turn about y: towards or away from "
+           "the other camera.</p>\n";
 }
 
 } // namespace
@@ -139,23 +138,31 @@ std::string verdict_section(const CalibrationRun& run)
     if (run.rig.id[0] != '\0')
         html += fill(" · {}", {escaped(run.rig.id)});
     html += fill("</p>\n<div class=\"verdict {}\"><h1>{}</h1><p>{}</p></div>\n",
-                 {verdict, headline(q.verdict), meaning(q.verdict)});
+                 {verdict, headline(q.verdict),
+                  is_solved(run) ? meaning(q.verdict) : "No calibration came out of these pictures."});
     html += "<div class=\"next\"><h2>What to do next</h2>\n";
-    if (q.advice.empty()) {
+    if (q.verdict == Verdict::kGood && q.advice.empty()) {
         html += "<ul><li>Use the rig file. Fix both cameras and their focus; calibrate again when one was moved.</li>"
                 "<li>Keep these pictures with your data, and check an object of known size now and then.</li></ul>";
+    } else if (q.advice.empty()) {
+        html += "<p>The reasons stand beside the pairs below.</p>";
     } else {
         html += "<ol>";
         for (const std::string& advice : q.advice)
             html += fill("<li>{}</li>", {sentence(advice)});
         html += "</ol>";
     }
-    html +=
-        fill("</div>\n<h2 id=\"millimetres\">In millimetres</h2>\n<p>How far off a depth is expected to be because of "
-             "this calibration: one standard deviation, over the part that both cameras see. At 800 mm, {} % of the "
-             "distance are good and {} % usable.</p>\n<div class=\"tiles\">\n",
-             {fixed(calibration::kDepthGate_percent.good, 1), fixed(calibration::kDepthGate_percent.usable, 1)});
-    for (const calibration::DepthError& depth : q.depth)
+    return html + "</div>\n";
+}
+
+std::string millimetres_section(const CalibrationRun& run)
+{
+    std::string html = fill(
+        "<h2 id=\"millimetres\">In millimetres</h2>\n<p>How far off a depth is expected to be because of this "
+        "calibration: one standard deviation, over the part that both cameras see. At 800 mm, {} % of the distance "
+        "are good and {} % usable.</p>\n<div class=\"tiles\">\n",
+        {fixed(calibration::kDepthGate_percent.good, 1), fixed(calibration::kDepthGate_percent.usable, 1)});
+    for (const calibration::DepthError& depth : run.quality.depth)
         html +=
             fill("<div class=\"tile\"><span>at {} mm</span><b>± {} <small>mm</small></b><span>{} % of the distance; "
                  "± {} mm with the noise of one corner</span></div>\n",

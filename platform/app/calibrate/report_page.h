@@ -10,8 +10,10 @@
 
 namespace dicot::app {
 
-/// The verdict, what to do next, and the millimetres.
+/// The verdict and what to do next.
 std::string verdict_section(const CalibrationRun& run);
+/// The expected depth errors.
+std::string millimetres_section(const CalibrationRun& run);
 /// Every number of the quality with a sentence, both lenses and the rig with their deviations.
 std::string numbers_section(const CalibrationRun& run);
 std::string coverage_section(const CalibrationRun& run);

@@ -15,6 +15,7 @@ namespace dicot::app {
 namespace {
 
 constexpr int kQuality = 82;
+constexpr double kFineSquare_px = 14; // of smaller squares the corners are drawn finer
 
 struct Picture
 {
@@ -143,13 +144,15 @@ std::string corner_drawing(const ReportPicture& picture, const std::string& labe
     if (picture.file.empty())
         return fill("<p class=\"lost\">The {} picture could not be read again: {}</p>\n",
                     {escaped(label), escaped(picture.missing)});
+    const double scale = run.task.width > 0 ? static_cast<double>(picture.width) / run.task.width : 1;
+    const bool fine = sight.square_px * scale < kFineSquare_px;
     std::string svg =
-        fill(R"(<svg viewBox="0 0 {} {}" role="img" aria-label="{}"><image href="{}" width="{}" height="{}"/>)",
-             {picture.width, picture.height, escaped(label), picture.file, picture.width, picture.height});
-    if (!sight.found || board < 0 || run.task.width <= 0)
+        fill(R"(<svg{} viewBox="0 0 {} {}" role="img" aria-label="{}"><image href="{}" width="{}" height="{}"/>)",
+             {fine ? " class=\"fine\"" : "", picture.width, picture.height, escaped(label), picture.file, picture.width,
+              picture.height});
+    if (!sight.found || board < 0)
         return svg + "</svg>\n";
     const int cols = run.task.boards[static_cast<std::size_t>(board)].cols;
-    const double scale = static_cast<double>(picture.width) / run.task.width;
     const auto place = [&](const Point2& corner) {
         return fill("{},{} ", {fixed(scale * (corner.x + 0.5), 1), fixed(scale * (corner.y + 0.5), 1)});
     };
@@ -163,8 +166,9 @@ std::string corner_drawing(const ReportPicture& picture, const std::string& labe
         svg += fill(R"(<polyline class="chain row{}" points="{}"/>)", {first / per_row % 7, points});
     }
     if (!sight.corners.empty())
-        svg += fill(R"(<circle class="first" cx="{}" cy="{}" r="5"/>)",
-                    {fixed(scale * (sight.corners[0].x + 0.5), 1), fixed(scale * (sight.corners[0].y + 0.5), 1)});
+        svg += fill(
+            R"(<circle class="first" cx="{}" cy="{}" r="{}"/>)",
+            {fixed(scale * (sight.corners[0].x + 0.5), 1), fixed(scale * (sight.corners[0].y + 0.5), 1), fine ? 3 : 5});
     return svg + "</svg>\n";
 }
 

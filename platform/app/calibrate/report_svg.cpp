@@ -78,7 +78,7 @@ std::string shared_drawings()
                       R"(<path class="hatch" d="M-1 7L7 -1M-1 1L1 -1M5 7L7 5"/></pattern>)";
     for (int colour = 0; colour < 7; ++colour)
         all += fill(R"(<marker id="ring{}" viewBox="-4 -4 8 8" markerWidth="8" markerHeight="8" )"
-                    R"(markerUnits="userSpaceOnUse"><circle r="2.6" class="ring row{}"/></marker>)",
+                    R"(markerUnits="strokeWidth"><circle r="2.6" class="ring row{}"/></marker>)",
                     {colour, colour});
     return all + "</defs></svg>\n";
 }
