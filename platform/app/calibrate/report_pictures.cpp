@@ -15,7 +15,7 @@ namespace dicot::app {
 namespace {
 
 constexpr int kQuality = 82;
-constexpr double kFineSquare_px = 14; // of smaller squares the corners are drawn finer
+constexpr double kFullSquare_px = 16; // corners of smaller squares are drawn finer
 
 struct Picture
 {
@@ -145,11 +145,11 @@ std::string corner_drawing(const ReportPicture& picture, const std::string& labe
         return fill("<p class=\"lost\">The {} picture could not be read again: {}</p>\n",
                     {escaped(label), escaped(picture.missing)});
     const double scale = run.task.width > 0 ? static_cast<double>(picture.width) / run.task.width : 1;
-    const bool fine = sight.square_px * scale < kFineSquare_px;
-    std::string svg =
-        fill(R"(<svg{} viewBox="0 0 {} {}" role="img" aria-label="{}"><image href="{}" width="{}" height="{}"/>)",
-             {fine ? " class=\"fine\"" : "", picture.width, picture.height, escaped(label), picture.file, picture.width,
-              picture.height});
+    const double stroke = std::clamp(sight.square_px * scale / kFullSquare_px, 0.6, 1.0);
+    std::string svg = fill(
+        R"(<svg viewBox="0 0 {} {}" stroke-width="{}" role="img" aria-label="{}">)"
+        R"(<image href="{}" width="{}" height="{}"/>)",
+        {picture.width, picture.height, fixed(stroke, 2), escaped(label), picture.file, picture.width, picture.height});
     if (!sight.found || board < 0)
         return svg + "</svg>\n";
     const int cols = run.task.boards[static_cast<std::size_t>(board)].cols;
@@ -166,9 +166,9 @@ std::string corner_drawing(const ReportPicture& picture, const std::string& labe
         svg += fill(R"(<polyline class="chain row{}" points="{}"/>)", {first / per_row % 7, points});
     }
     if (!sight.corners.empty())
-        svg += fill(
-            R"(<circle class="first" cx="{}" cy="{}" r="{}"/>)",
-            {fixed(scale * (sight.corners[0].x + 0.5), 1), fixed(scale * (sight.corners[0].y + 0.5), 1), fine ? 3 : 5});
+        svg += fill(R"(<circle class="first" cx="{}" cy="{}" r="{}"/>)",
+                    {fixed(scale * (sight.corners[0].x + 0.5), 1), fixed(scale * (sight.corners[0].y + 0.5), 1),
+                     fixed(5 * stroke, 1)});
     return svg + "</svg>\n";
 }
 

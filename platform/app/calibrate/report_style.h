@@ -76,8 +76,7 @@ svg.shared { position: absolute; width: 0; height: 0; }
 .bar { fill: var(--leaf); } .bar.left { fill: var(--left); } .bar.right { fill: var(--right); }
 .bar.dropped { fill: none; stroke: var(--eye); stroke-width: 1.5; stroke-dasharray: 3 2; }
 .label { fill: var(--quiet); } .middle { text-anchor: middle; } .end { text-anchor: end; }
-.chain { fill: none; stroke-width: 1; } .fine .chain { stroke-width: 0.6; }
-.ring { fill: none; stroke-width: 1.6; }
+.chain { fill: none; } .ring { fill: none; stroke-width: 1.6; }
 .first { fill: #ff3b30; stroke: #ffffff; stroke-width: 1.6; }
 .row0 { stroke: #ff3b30; } .row1 { stroke: #ff9500; } .row2 { stroke: #ffe000; } .row3 { stroke: #2fd65a; }
 .row4 { stroke: #00d5e0; } .row5 { stroke: #3d8bff; } .row6 { stroke: #ff4fd8; }
