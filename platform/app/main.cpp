@@ -1,12 +1,25 @@
 #include "commands.h"
 
 #include <cstdio>
+#include <string>
 
 namespace {
 
 constexpr const char* kFooter =
     "Exit codes follow sysexits(3): 0 done, 64 usage, 65 bad data, 66 no input, 69 unavailable, "
     "70 fault of dicot, 71 system refused,\n73 cannot create, 74 I/O error, 75 try again, 78 configuration.";
+
+/// One sentence, as for every other fault.
+int misused(const CLI::App& program, const CLI::ParseError& error)
+{
+    std::string words = "dicot";
+    for (const CLI::App* app = &program; !app->get_subcommands().empty();) {
+        app = app->get_subcommands().front();
+        words += " " + app->get_name();
+    }
+    std::fprintf(stderr, "dicot: %s: see '%s --help'\n", error.what(), words.c_str());
+    return static_cast<int>(dicot::Fault::kUsage);
+}
 
 } // namespace
 
@@ -33,9 +46,9 @@ int main(int argc, char** argv)
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        const bool asked_for = error.get_exit_code() == 0; // --help, --version
-        program.exit(error);
-        return asked_for ? 0 : static_cast<int>(Fault::kUsage);
+        if (error.get_exit_code() == 0) // --help, --version
+            return program.exit(error);
+        return misused(program, error);
     }
     const Status status = chosen();
     if (!status.ok())

@@ -1,12 +1,9 @@
 #include "dicot/picture/read_map.h"
 
+#include "by_magic.h"
 #include "decode.h"
 #include "decode_map.h"
 #include "dicot/os/shown_path.h"
-
-#include <algorithm>
-#include <cstring>
-#include <string_view>
 
 namespace dicot {
 
@@ -25,33 +22,15 @@ Status accept_head(const char* name, std::uint64_t width, std::uint64_t height, 
 
 namespace {
 
-struct Format
-{
-    std::string_view magic;
-    Status (*decode)(ByteSource&, MapRequest&) noexcept;
-};
-
-constexpr Format kFormats[] = {
+constexpr Format<MapRequest> kFormats[] = {
     {"\x89PNG\r\n\x1a\n", &decode_png_map},
     {"Pf", &decode_pfm},
 };
 
 Status decode(ByteSource& source, MapRequest& request) noexcept
 {
-    const std::span<const std::byte> front = source.ahead();
-    if (!source.trouble().ok())
-        return source.trouble();
-    if (front.empty())
-        return failure(Fault::kBadData, "%s: the file is empty; write or copy the map again",
-                       shown_path(source.name()));
-    for (const Format& format : kFormats) {
-        const std::size_t known = std::min(front.size(), format.magic.size());
-        if (std::memcmp(front.data(), format.magic.data(), known) != 0)
-            continue;
-        return known == format.magic.size() ? format.decode(source, request) : ended_early(source);
-    }
-    return failure(Fault::kBadData, "%s: is no disparity map; give a PFM of one channel or a grey PNG",
-                   shown_path(source.name()));
+    return decode_by_magic<MapRequest>(source, kFormats, request, "write or copy the map again",
+                                       "is no disparity map; give a PFM of one channel or a grey PNG");
 }
 
 } // namespace

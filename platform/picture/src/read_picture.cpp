@@ -1,11 +1,8 @@
 #include "dicot/picture/read_picture.h"
 
+#include "by_magic.h"
 #include "decode.h"
 #include "dicot/os/shown_path.h"
-
-#include <algorithm>
-#include <cstring>
-#include <string_view>
 
 namespace dicot {
 
@@ -42,15 +39,7 @@ Status damaged(const char* name, const char* detail) noexcept
 
 namespace {
 
-using Decoder = Status (*)(ByteSource&, PictureRequest&) noexcept;
-
-struct Format
-{
-    std::string_view magic;
-    Decoder decode;
-};
-
-constexpr Format kFormats[] = {
+constexpr Format<PictureRequest> kFormats[] = {
     {"\x89PNG\r\n\x1a\n", &decode_png},
     {"\xff\xd8\xff", &decode_jpeg},
     {"P2", &decode_pnm},
@@ -61,20 +50,8 @@ constexpr Format kFormats[] = {
 
 Status decode(ByteSource& source, PictureRequest& request) noexcept
 {
-    const std::span<const std::byte> front = source.ahead();
-    if (!source.trouble().ok())
-        return source.trouble();
-    if (front.empty())
-        return failure(Fault::kBadData, "%s: the file is empty; copy or take the picture again",
-                       shown_path(source.name()));
-    for (const Format& format : kFormats) {
-        const std::size_t known = std::min(front.size(), format.magic.size());
-        if (std::memcmp(front.data(), format.magic.data(), known) != 0)
-            continue;
-        return known == format.magic.size() ? format.decode(source, request) : ended_early(source);
-    }
-    return failure(Fault::kBadData, "%s: is no picture that dicot reads; convert it to PNG, JPEG or PPM",
-                   shown_path(source.name()));
+    return decode_by_magic<PictureRequest>(source, kFormats, request, "copy or take the picture again",
+                                           "is no picture that dicot reads; convert it to PNG, JPEG or PPM");
 }
 
 } // namespace
