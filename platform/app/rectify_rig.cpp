@@ -73,6 +73,15 @@ void set_rectification(RigFile& rig, const Rectification& flat)
         {{1, 0, 0, -flat.cx_px}, {0, 1, 0, -flat.cy_px}, {0, 0, 0, f}, {0, 0, 1 / flat.baseline_mm, 0}}};
 }
 
+void print_table(const char* side, const RemapTable& table)
+{
+    const double pixels = static_cast<double>(table.width()) * table.height();
+    std::printf("%-5s table: cells of %d px, %.1f KiB, worst error %.5f px of %.5f allowed, %.2f %% of the pixels have "
+                "a source\n",
+                side, table.cell_px(), static_cast<double>(table.table_bytes()) / 1024, table.worst_error_px(),
+                RemapTable::kMostErrorPx, 100 * static_cast<double>(table.pixels_with_source()) / pixels);
+}
+
 namespace {
 
 struct Carved

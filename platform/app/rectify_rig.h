@@ -20,6 +20,9 @@ Result<StereoRig> stereo_rig_of(const RigFile& rig, const char* name);
 /// Fills R1 R2 P1 P2 Q.
 void set_rectification(RigFile& rig, const Rectification& flat);
 
+/// One line on stdout: size, exactness, coverage.
+void print_table(const char* side, const RemapTable& table);
+
 /// The tables of both cameras, in memory of their own, made before the heap is sealed.
 class RectifyTables
 {
