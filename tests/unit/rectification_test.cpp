@@ -1,3 +1,5 @@
+#include "rendered_maps.h"
+
 #include "dicot/rectification/rectify.h"
 #include "dicot/rectification/remap_table.h"
 
@@ -13,28 +15,8 @@
 namespace dicot {
 namespace {
 
-// The rendered rig's true cameras (shared data, rig-dev/plants/gt_calib.yml).
-StereoRig rendered_rig()
-{
-    StereoRig rig;
-    rig.width = 1280;
-    rig.height = 720;
-    rig.left = {777.89276786340088,
-                  779.22841480213208,
-                  638.20879698541989,
-                  359.94927648284801,
-                  {-0.10451280577602631, 0.039583562349614201, 6.4668286917118727e-04, -9.7136284707223563e-04}};
-    rig.right = {783.05460860099208,
-                   781.84721187021341,
-                   649.95462525230630,
-                   358.40482391422904,
-                   {-0.14228166762931541, 0.028297523822456185, 1.3748218827529797e-03, -1.1776613385286675e-03}};
-    rig.turn = {9.9979302529515746e-01,  1.8468642903365546e-02,  8.5332174743929512e-03,
-                             -1.8639456633073443e-02, 9.9961830559038156e-01,  2.0391512573594013e-02,
-                             -8.1533568290057135e-03, -2.0546346583352321e-02, 9.9975565535509547e-01};
-    rig.shift_mm = {-84.985154252604417, 1.0246794468807228, 1.2139146148627700};
-    return rig;
-}
+using test::map_of;
+using test::rendered_rig;
 
 /// OpenCV's projection of a point, written out.
 Point2 projected(const Lens& lens, const Point3& point)
@@ -45,11 +27,6 @@ Point2 projected(const Lens& lens, const Point3& point)
         (1 + k[0] * r2 + k[1] * r2 * r2 + k[4] * r2 * r2 * r2) / (1 + k[5] * r2 + k[6] * r2 * r2 + k[7] * r2 * r2 * r2);
     return {lens.fx * (x * scale + 2 * k[2] * x * y + k[3] * (r2 + 2 * x * x)) + lens.cx,
             lens.fy * (y * scale + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y) + lens.cy};
-}
-
-LensMap map_of(const Lens& lens, const Turn& turn, const Rectification& flat)
-{
-    return {lens, turn, flat.focal_px, flat.cx_px, flat.cy_px};
 }
 
 struct Built
