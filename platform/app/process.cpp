@@ -165,7 +165,7 @@ Result<PointCloud> see(const Words& words, const Plan& plan, ProcessBench& bench
     const int width = plan.rig.width;
     const int height = plan.rig.height;
     Arena stage = bench.next_stage();
-    const auto left = take_picture<Rgb8>(bench.kept, width, height);
+    const auto left = take_picture<Rgb8>(stage, width, height);
     const auto right = take_picture<Rgb8>(stage, width, height);
     const auto painted = take_picture<Rgb8>(stage, width, height);
     Matcher matcher = TRY(Matcher::make(width, height, plan.match, *plan.kernels, plan.threads, stage));

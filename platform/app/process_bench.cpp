@@ -40,13 +40,12 @@ Result<ProcessBudget> process_budget(int width, int height, Pictures pictures, c
     ProcessBudget budget;
     budget.tables = pictures == Pictures::kRaw ? RectifyTables::reserved_bytes(width, height) : 0;
     Arena kept;
-    (void)take_picture<Rgb8>(kept, width, height);
     (void)kept.take<CloudPoint>(pixels);
     budget.kept = kept.peak();
 
     Arena match;
-    (void)take_picture<Rgb8>(match, width, height);
-    (void)take_picture<Rgb8>(match, width, height);
+    for (int picture = 0; picture < 3; ++picture)
+        (void)take_picture<Rgb8>(match, width, height);
     (void)TRY(Matcher::make(width, height, options, kScalarKernels, workers, match));
     budget.match = match.peak();
 

@@ -15,8 +15,8 @@ namespace dicot::app {
 struct ProcessBudget
 {
     std::size_t tables = 0;  ///< rectification: mapped apart, before the rest
-    std::size_t kept = 0;    ///< the left picture and a point for each pixel
-    std::size_t match = 0;   ///< stage 1: right picture, matcher, picture of the disparities
+    std::size_t kept = 0;    ///< a point for each pixel
+    std::size_t match = 0;   ///< stage 1: both pictures, matcher, picture of the disparities
     std::size_t encode = 0;  ///< stage 2: the compressor's heap
     std::size_t preview = 0; ///< stage 3: the drawing of the cloud
     std::size_t stages() const;
