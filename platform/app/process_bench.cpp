@@ -28,8 +28,7 @@ PreviewSize preview_size(int width, int height)
     return {2 * kViewWidth, std::clamp(kViewWidth * height / width, kLeastViewHeight, kMostViewHeight)};
 }
 
-Result<ProcessBudget> process_budget(int width, int height, Pictures pictures, const MatchOptions& options,
-                                     int workers)
+Result<ProcessBudget> process_budget(int width, int height, Pictures pictures, const MatchOptions& options, int workers)
 {
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     if (pixels > kMaxCloudPoints)

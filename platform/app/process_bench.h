@@ -42,7 +42,8 @@ enum class Pictures
 Result<ProcessBudget> process_budget(int width, int height, Pictures pictures, const MatchOptions& options,
                                      int workers);
 
-/// The memory but for the tables, cut into what is kept and what the stages use in turn. Pages become resident when they are used.
+/// The memory but for the tables, cut into what is kept and what the stages use in turn. Pages become resident when
+/// they are used.
 class ProcessBench
 {
 public:

@@ -27,8 +27,8 @@ void print_table(const char* side, const RemapTable& table);
 class RectifyTables
 {
 public:
-    /// Rectifies `rig` (filling R1 R2 P1 P2 Q) and builds both tables. `keep` as in rectify(); `name` is the rig file's.
-    /// Errors: those of stereo_rig_of(), rectify() and RemapTable::build(); kOsError without memory.
+    /// Rectifies `rig` (filling R1 R2 P1 P2 Q) and builds both tables. `keep` as in rectify(); `name` is the rig
+    /// file's. Errors: those of stereo_rig_of(), rectify() and RemapTable::build(); kOsError without memory.
     static Result<RectifyTables> build(RigFile& rig, double keep, const char* name);
     /// The same tables, out of the file beside the rig file (stored_maps.h) where it is whole and made for this rig and
     /// `keep`; else as build(). A file that is damaged or of another rig is named on stderr, and left as it is.
@@ -37,7 +37,7 @@ public:
     const RemapTable& left() const { return maps_.left; }
     const RemapTable& right() const { return maps_.right; }
     const RigMaps& maps() const { return maps_; }
-    std::span<RemapSpan> spans() const { return spans_; } ///< scratch for remap()
+    std::span<RemapSpan> spans() const { return spans_; }           ///< scratch for remap()
     const std::string& loaded_from() const { return loaded_from_; } ///< empty: they were built
     double milliseconds() const { return milliseconds_; }           ///< that building or loading took
     /// For people: "built in 61.2 ms", "loaded from rig.maps in 2.1 ms".

@@ -63,7 +63,8 @@ Status run(const Words& words)
 
 void add_rig_tables(CLI::App& rig, Command& chosen)
 {
-    CLI::App* command = rig.add_subcommand("tables", "Build the rectification tables and store them beside the rig file");
+    CLI::App* command =
+        rig.add_subcommand("tables", "Build the rectification tables and store them beside the rig file");
     auto words = std::make_shared<Words>();
     command->add_option("RIG", words->rig, "rig file of the two cameras (YAML)")->required();
     command->add_option("-o,--output", words->output,

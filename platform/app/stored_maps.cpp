@@ -60,7 +60,8 @@ std::optional<RigMaps> load_maps(const std::string& path, const StereoRig& rig, 
     if (read.ok())
         return read.value();
     if (read.status().fault() != Fault::kConfig)
-        std::fprintf(stderr, "dicot: warning: %s; the tables are built in memory: 'dicot rig tables %s' stores them anew\n",
+        std::fprintf(stderr,
+                     "dicot: warning: %s; the tables are built in memory: 'dicot rig tables %s' stores them anew\n",
                      read.status().message(), rig_name);
     return std::nullopt;
 }

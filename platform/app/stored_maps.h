@@ -24,8 +24,8 @@ struct StoredTables
 Result<StoredTables> store_tables(const RigFile& rig, double keep, const std::string& rig_name,
                                   const std::string& path);
 
-/// The tables in `path`, in memory of `arena`; nothing where there is no such file, where it is made for another `keep`,
-/// and, with a sentence on stderr, where it cannot be read, is damaged or belongs to another rig.
+/// The tables in `path`, in memory of `arena`; nothing where there is no such file, where it is made for another
+/// `keep`, and, with a sentence on stderr, where it cannot be read, is damaged or belongs to another rig.
 std::optional<RigMaps> load_maps(const std::string& path, const StereoRig& rig, double keep, Arena arena,
                                  const char* rig_name);
 

@@ -61,11 +61,10 @@ TEST(RawPair, LeavesStandWithin2MmOfTheirTrueDepth)
         return;
     }
     const test::TempFolder folder;
-    const test::ToolRun run =
-        test::run(std::string{DICOT_PROGRAM} + " process " + plant + "overcast_left.jpg " + plant +
-                  "overcast_right.jpg --rig " + plants + "gt_calib.yml --near-mm " + std::to_string(kNearMm) +
-                  " --far-mm " + std::to_string(kFarMm) + " -o " + folder.path("plant.drc") + " --ply " +
-                  folder.path("plant.ply"));
+    const test::ToolRun run = test::run(std::string{DICOT_PROGRAM} + " process " + plant + "overcast_left.jpg " +
+                                        plant + "overcast_right.jpg --rig " + plants + "gt_calib.yml --near-mm " +
+                                        std::to_string(kNearMm) + " --far-mm " + std::to_string(kFarMm) + " -o " +
+                                        folder.path("plant.drc") + " --ply " + folder.path("plant.ply"));
     ASSERT_EQ(run.exit_code, 0) << run.output;
     const Truth depth_mm(plant + "gt_depth.png", 10);
     const Truth kind(plant + "gt_class.png", 1);
@@ -88,10 +87,11 @@ TEST(RawPair, LeavesStandWithin2MmOfTheirTrueDepth)
             leaves.mm.push_back(all.mm.back());
     }
     ASSERT_GT(leaves.mm.size(), 80000u);
-    std::printf("rendered epipremnum, raw pair | leaves: %zu points, median depth error %.2f mm, %.1f %% within 10 mm | "
-                "all within %.0f to %.0f mm: %zu points, %.2f mm, %.1f %%\n",
-                leaves.mm.size(), leaves.median(), leaves.within_percent(10), kNearMm, kFarMm, all.mm.size(),
-                all.median(), all.within_percent(10));
+    std::printf(
+        "rendered epipremnum, raw pair | leaves: %zu points, median depth error %.2f mm, %.1f %% within 10 mm | "
+        "all within %.0f to %.0f mm: %zu points, %.2f mm, %.1f %%\n",
+        leaves.mm.size(), leaves.median(), leaves.within_percent(10), kNearMm, kFarMm, all.mm.size(), all.median(),
+        all.within_percent(10));
     EXPECT_LE(leaves.median(), 2.0);
     EXPECT_LE(all.median(), 3.0);
     EXPECT_GE(leaves.within_percent(10), 90);

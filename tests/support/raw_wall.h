@@ -74,7 +74,8 @@ private:
     /// A brightness for each knot of a grid on the wall.
     static double knot(int column, int row, int channel)
     {
-        std::uint32_t hash = static_cast<std::uint32_t>(column) * 2654435761u ^ static_cast<std::uint32_t>(row) * 2246822519u ^
+        std::uint32_t hash = static_cast<std::uint32_t>(column) * 2654435761u ^
+                             static_cast<std::uint32_t>(row) * 2246822519u ^
                              static_cast<std::uint32_t>(channel) * 3266489917u;
         hash = (hash ^ (hash >> 15)) * 2246822519u;
         return static_cast<double>((hash ^ (hash >> 13)) >> 24);
@@ -85,8 +86,9 @@ private:
         const double u = x_mm / kKnotMm, v = y_mm / kKnotMm;
         const int column = static_cast<int>(std::floor(u)), row = static_cast<int>(std::floor(v));
         const double a = u - column, b = v - row;
-        return static_cast<std::uint8_t>((1 - b) * ((1 - a) * knot(column, row, channel) + a * knot(column + 1, row, channel)) +
-                                         b * ((1 - a) * knot(column, row + 1, channel) + a * knot(column + 1, row + 1, channel)) + 0.5);
+        return static_cast<std::uint8_t>(
+            (1 - b) * ((1 - a) * knot(column, row, channel) + a * knot(column + 1, row, channel)) +
+            b * ((1 - a) * knot(column, row + 1, channel) + a * knot(column + 1, row + 1, channel)) + 0.5);
     }
     Bytes seen_by(const Lens& lens, const Turn& left_from_camera, const Point3& eye) const
     {

@@ -67,7 +67,8 @@ struct RenderedMaps
     explicit RenderedMaps(double keep = kCrop) : flat(rectify(rig, keep, "rig.yaml").value())
     {
         Arena arena = memory.arena();
-        maps.left = RemapTable::build(map_of(rig.left, flat.left_rectifying, flat), 1280, 720, arena, "rig.yaml").value();
+        maps.left =
+            RemapTable::build(map_of(rig.left, flat.left_rectifying, flat), 1280, 720, arena, "rig.yaml").value();
         maps.right =
             RemapTable::build(map_of(rig.right, flat.right_rectifying, flat), 1280, 720, arena, "rig.yaml").value();
     }

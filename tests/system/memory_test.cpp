@@ -125,9 +125,10 @@ std::string raw_rig(const test::TempFolder& folder, const Case& size)
     const std::string k = "500., 0., " + std::to_string((size.width - 1) / 2.0) + ", 0., 500., " +
                           std::to_string((size.height - 1) / 2.0) + ", 0., 0., 1.";
     return folder.write("rig.yaml", "%YAML:1.0\n---\nimage_width: " + std::to_string(size.width) +
-                                        "\nimage_height: " + std::to_string(size.height) + "\nnear_mm: 1000\nfar_mm: 3000\n" +
-                                        matrix("K1", 3, k) + matrix("K2", 3, k) +
-                                        matrix("R", 3, "1., 0., 0., 0., 1., 0., 0., 0., 1.") + matrix("T", 1, "-60., 0., 0."));
+                                        "\nimage_height: " + std::to_string(size.height) +
+                                        "\nnear_mm: 1000\nfar_mm: 3000\n" + matrix("K1", 3, k) + matrix("K2", 3, k) +
+                                        matrix("R", 3, "1., 0., 0., 0., 1., 0., 0., 0., 1.") +
+                                        matrix("T", 1, "-60., 0., 0."));
 }
 
 TEST(Memory, ProcessOfARawPairThatFillsTheCloudStaysWithinItsPrediction)
@@ -136,7 +137,8 @@ TEST(Memory, ProcessOfARawPairThatFillsTheCloudStaysWithinItsPrediction)
         return;
     for (const Case& size : {kWebcam, kWide}) {
         const test::TempFolder folder;
-        const std::string pair = textured_ppm(folder, "left.ppm", size, 0) + " " + textured_ppm(folder, "right.ppm", size, 20);
+        const std::string pair =
+            textured_ppm(folder, "left.ppm", size, 0) + " " + textured_ppm(folder, "right.ppm", size, 20);
         const auto report = report_of("process " + pair + " --rig " + raw_rig(folder, size) + " -o " +
                                       folder.path("cloud.drc") + " --window 5 --threads 2");
         ASSERT_TRUE(report.contains("points"));
@@ -148,12 +150,13 @@ TEST(Memory, ProcessOfARawPairThatFillsTheCloudStaysWithinItsPrediction)
         const double real = report["peak_memory_bytes"];
         const double compressor = report["compressor_peak_bytes"];
         // The compressor is lent what the worst cloud needs, and touches less of it for a wall.
-        const auto lent = static_cast<double>(encode_heap_bytes(static_cast<std::size_t>(size.width) *
-                                                                static_cast<std::size_t>(size.height)));
+        const auto lent = static_cast<double>(
+            encode_heap_bytes(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height)));
         const double for_this_cloud = predicted - lent + compressor;
-        std::printf("process, raw, %d x %d, %.1f %% of the pixels are points: at most %.1f MiB, for this cloud %.1f MiB, "
-                    "real %.1f MiB\n",
-                    size.width, size.height, 100 * filled, predicted / kMiB, for_this_cloud / kMiB, real / kMiB);
+        std::printf(
+            "process, raw, %d x %d, %.1f %% of the pixels are points: at most %.1f MiB, for this cloud %.1f MiB, "
+            "real %.1f MiB\n",
+            size.width, size.height, 100 * filled, predicted / kMiB, for_this_cloud / kMiB, real / kMiB);
         EXPECT_GE(lent, compressor);
         EXPECT_GE(for_this_cloud, real) << "a prediction that is too low is a promise broken in the field";
         EXPECT_LE(for_this_cloud, 1.1 * real);

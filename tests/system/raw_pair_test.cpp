@@ -127,7 +127,8 @@ TEST(RawPair, DamagedOrForeignTablesAreNamedNotTrustedAndNotTouched)
 
     // What was asked for with other words is no fault and needs no sentence.
     wall.write_rig(wall.rig);
-    const ToolRun kept = dicot("rectify " + wall.pair() + " --rig " + wall.rig_path + " --keep 1 -o " + wall.folder.path("flat"));
+    const ToolRun kept =
+        dicot("rectify " + wall.pair() + " --rig " + wall.rig_path + " --keep 1 -o " + wall.folder.path("flat"));
     EXPECT_EQ(kept.exit_code, 0);
     EXPECT_EQ(kept.output.find("warning"), std::string::npos) << kept.output;
     EXPECT_NE(kept.output.find("tables: built"), std::string::npos) << kept.output;
@@ -137,7 +138,8 @@ TEST(RawPair, ThePicturesOfRectifyAreTheSameFromStoredTables)
 {
     const RawWall wall;
     const auto rectified = [&](const std::string& folder) {
-        const ToolRun run = dicot("rectify " + wall.pair() + " --rig " + wall.rig_path + " -o " + wall.folder.path(folder));
+        const ToolRun run =
+            dicot("rectify " + wall.pair() + " --rig " + wall.rig_path + " -o " + wall.folder.path(folder));
         EXPECT_EQ(run.exit_code, 0) << run.output;
         return run.output;
     };
@@ -164,8 +166,8 @@ TEST(RawPair, TablesOfWhatIsNoRigAreRefusedAndNothingIsWritten)
     refused(wall.left, 65, "left.ppm");
     refused(wall.rig_path + " -o " + wall.folder.path("rig.bin"), 64, ".maps");
     refused(wall.rig_path + " -o /nowhere/at/all/rig.maps", 73, "/nowhere/at/all");
-    const std::string flat = wall.folder.write(
-        "flat.yaml", std::string("%YAML:1.0\n---\nimage_width: 320\nimage_height: 180\n"));
+    const std::string flat =
+        wall.folder.write("flat.yaml", std::string("%YAML:1.0\n---\nimage_width: 320\nimage_height: 180\n"));
     refused(flat, 65, "K1, K2, R and T are needed");
     std::filesystem::create_symlink("/dev/full", wall.folder.path("full.maps"));
     refused(wall.rig_path + " -o " + wall.folder.path("full.maps"), 74, "disk is full");

@@ -139,10 +139,7 @@ TEST(Rectify, RefusesWhatIsNoRig)
     };
     EXPECT_NE(refused([](StereoRig& m) { m.left.cx = std::nan(""); }).find("not finite"), std::string::npos);
     EXPECT_NE(refused([](StereoRig& m) { m.shift_mm = {85, 0, 0}; }).find("swapped"), std::string::npos);
-    EXPECT_NE(refused([](StereoRig& m) {
-                  m.shift_mm = {1, -85, 0};
-              }).find("above each other"),
-              std::string::npos);
+    EXPECT_NE(refused([](StereoRig& m) { m.shift_mm = {1, -85, 0}; }).find("above each other"), std::string::npos);
     EXPECT_NE(refused([](StereoRig& m) { m.shift_mm = {-0.085, 0, 0}; }).find("unit: m"), std::string::npos);
     EXPECT_NE(refused([](StereoRig& m) { m.turn[0] = -1; }).find("no rotation"), std::string::npos);
     EXPECT_NE(refused([](StereoRig& m) { m.right.fy = 0; }).find("focal length"), std::string::npos);

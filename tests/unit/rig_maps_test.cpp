@@ -115,8 +115,8 @@ TEST(RigMaps, EveryCutAndEveryDamagedByteIsRefused)
 {
     const SmallRig small;
     for (std::size_t count = 0; count < small.bytes.size(); ++count)
-        ASSERT_FALSE(Read(Bytes(small.bytes.begin(), small.bytes.begin() + static_cast<std::ptrdiff_t>(count)), small.rig,
-                          small.keep)
+        ASSERT_FALSE(Read(Bytes(small.bytes.begin(), small.bytes.begin() + static_cast<std::ptrdiff_t>(count)),
+                          small.rig, small.keep)
                          .maps.ok())
             << count;
     Bytes longer = small.bytes;
@@ -141,7 +141,8 @@ Bytes signed_again(Bytes bytes)
 TEST(RigMaps, LengthsThatLieAreRefusedAlthoughTheChecksumAgrees)
 {
     const SmallRig small;
-    const std::size_t lengths = small.bytes.size() - small.maps.left.serial_bytes() - small.maps.right.serial_bytes() - 12;
+    const std::size_t lengths =
+        small.bytes.size() - small.maps.left.serial_bytes() - small.maps.right.serial_bytes() - 12;
     for (const unsigned lie : {0u, 1u, 0x7Fu, 0xFFu})
         for (std::size_t at = lengths; at < lengths + 8; ++at) {
             Bytes bytes = small.bytes;

@@ -271,8 +271,8 @@ struct Remap
     }
 };
 
-// Eight pixels whose neighbours all lie inside, so that nothing must be held, masked or shifted back. Pixels k and k + 4
-// share a vector, one in each half: every value is then where a shuffle within the halves can reach it.
+// Eight pixels whose neighbours all lie inside, so that nothing must be held, masked or shifted back. Pixels k and k +
+// 4 share a vector, one in each half: every value is then where a shuffle within the halves can reach it.
 struct InnerRemap
 {
     Vec ramp;   // pixel u of its cell, in cells of 8 or 4
@@ -349,15 +349,15 @@ struct InnerRemap
                            _mm256_add_epi32(row, _mm256_add_epi32(left, _mm256_add_epi32(left, left))));
         // Through memory: gcc would take the lanes apart by shuffles, which share one port with all others here.
         asm("" : "+m"(offsets));
-        const Vec words_01 = _mm256_packs_epi32(two_pixels<0>(offsets, by_column, by_row),
-                                                two_pixels<1>(offsets, by_column, by_row));
-        const Vec words_23 = _mm256_packs_epi32(two_pixels<2>(offsets, by_column, by_row),
-                                                two_pixels<3>(offsets, by_column, by_row));
+        const Vec words_01 =
+            _mm256_packs_epi32(two_pixels<0>(offsets, by_column, by_row), two_pixels<1>(offsets, by_column, by_row));
+        const Vec words_23 =
+            _mm256_packs_epi32(two_pixels<2>(offsets, by_column, by_row), two_pixels<3>(offsets, by_column, by_row));
         const Vec three_of_four = _mm256_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1, //
                                                    0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1);
-        const Vec packed = _mm256_permutevar8x32_epi32(
-            _mm256_shuffle_epi8(_mm256_packus_epi16(words_01, words_23), three_of_four),
-            _mm256_setr_epi32(0, 1, 2, 4, 5, 6, 3, 7));
+        const Vec packed =
+            _mm256_permutevar8x32_epi32(_mm256_shuffle_epi8(_mm256_packus_epi16(words_01, words_23), three_of_four),
+                                        _mm256_setr_epi32(0, 1, 2, 4, 5, 6, 3, 7));
         _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm256_castsi256_si128(packed));
         _mm_storel_epi64(reinterpret_cast<__m128i*>(to + 16), _mm256_extracti128_si256(packed, 1));
         return true;

@@ -13,7 +13,7 @@ namespace {
 
 // The last letter is to change with the format, and with how tables are built.
 constexpr std::array<char, 8> kMagic = {'d', 'i', 'c', 'o', 't', 'R', 'M', '1'};
-constexpr std::size_t kNumbers = 2 * (4 + std::tuple_size_v<decltype(Lens::k)>) + std::tuple_size_v<Turn> + 3;
+constexpr std::size_t kNumbers = 2 * (4 + std::tuple_size_v<decltype(Lens::k)>)+std::tuple_size_v<Turn> + 3;
 constexpr std::size_t kRigBytes = kMagic.size() + 2 * 4 + kNumbers * 8; // what a rig must have in common with its maps
 constexpr std::size_t kHeadBytes = kRigBytes + 8 + 2 * 4;
 constexpr std::size_t kChecksumBytes = 4;

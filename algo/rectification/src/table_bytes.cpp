@@ -16,7 +16,8 @@ constexpr std::size_t kHeadBytes = 28;
 constexpr std::size_t kChecksumBytes = 4;
 constexpr std::int32_t kLeastCorner = -8192 * (1 << RemapTable::kCornerFraction);
 constexpr std::int32_t kMostCorner = 24576 * (1 << RemapTable::kCornerFraction);
-constexpr std::uint32_t kMostErrorSteps = static_cast<std::uint32_t>(RemapTable::kMostErrorPx * RemapTable::kErrorSteps);
+constexpr std::uint32_t kMostErrorSteps =
+    static_cast<std::uint32_t>(RemapTable::kMostErrorPx * RemapTable::kErrorSteps);
 
 } // namespace
 
@@ -52,9 +53,7 @@ std::uint32_t RemapTable::write(std::span<std::byte> into) const
 
 Result<RemapTable> RemapTable::read(std::span<const std::byte> bytes, Arena& arena, const char* name)
 {
-    const auto refused = [name](const char* why) {
-        return failure(Fault::kBadData, "%s: %s", name, why);
-    };
+    const auto refused = [name](const char* why) { return failure(Fault::kBadData, "%s: %s", name, why); };
     if (bytes.size() < kHeadBytes + kChecksumBytes || std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0)
         return refused("no rectification table");
     ByteReader head(bytes.subspan(kMagic.size()));

@@ -34,7 +34,8 @@ std::uint32_t crc32(std::span<const std::byte> bytes) noexcept
     std::size_t i = 0;
     for (; i + 4 <= bytes.size(); i += 4) {
         crc ^= byte_at(i) | byte_at(i + 1) << 8 | byte_at(i + 2) << 16 | byte_at(i + 3) << 24;
-        crc = kTable[3][crc & 0xFF] ^ kTable[2][(crc >> 8) & 0xFF] ^ kTable[1][(crc >> 16) & 0xFF] ^ kTable[0][crc >> 24];
+        crc =
+            kTable[3][crc & 0xFF] ^ kTable[2][(crc >> 8) & 0xFF] ^ kTable[1][(crc >> 16) & 0xFF] ^ kTable[0][crc >> 24];
     }
     for (; i < bytes.size(); ++i)
         crc = (crc >> 8) ^ kTable[0][(crc ^ byte_at(i)) & 0xFF];
