@@ -4,7 +4,7 @@
 
 dicot_packages() {
     case $1 in
-        build) echo "g++ cmake ninja-build pkg-config libpng-dev libjpeg62-turbo-dev libyaml-dev libcli11-dev
+        build) echo "g++ cmake ninja-build pkg-config libpng-dev libjpeg62-turbo-dev libyaml-dev libmd-dev libcli11-dev
             nlohmann-json3-dev libeigen3-dev libdraco-dev" ;;
         quickstart) echo "libjpeg-turbo-progs" ;; # djpeg scales the pair
         # draco, pcl-tools: readers of others for our files; OpenCV: a yardstick beside ours

@@ -75,6 +75,7 @@ done)"
 door 'Eigen/' algo/calibration
 door 'draco/' storage/codec
 door 'yaml\.h' storage/rig
+door 'sha2\.h' platform/os
 door 'png\.h' platform/picture
 door 'j(peglib|error)\.h' platform/picture
 door 'CLI/' platform/app
