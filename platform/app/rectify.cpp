@@ -2,8 +2,8 @@
 #include "commands.h"
 #include "match_words.h"
 #include "output_folder.h"
-#include "process_bench.h"
 #include "rectify_rig.h"
+#include "take_picture.h"
 
 #include "dicot/os/clock.h"
 #include "dicot/picture/read_picture.h"
@@ -69,7 +69,7 @@ Status run(const Words& words)
     RigFile rig = TRY(read_rig_file(words.rig.c_str()));
     TRY(check_size(words.left, words.rig, rig));
     TRY(check_size(words.right, words.rig, rig));
-    const RectifyTables tables = TRY(RectifyTables::make(rig, words.keep, words.rig.c_str()));
+    const RectifyTables tables = TRY(RectifyTables::load_or_build(rig, words.keep, words.rig.c_str()));
     const int width = rig.width;
     const int height = rig.height;
     const auto lay_out = [&](Arena& arena) {
@@ -116,15 +116,12 @@ Status run(const Words& words)
         return flat;
     }()));
 
-    const double pixels = static_cast<double>(width) * height;
     std::printf("%s: focal length %.3f px, principal point %.3f, %.3f px, baseline %.3f mm\n", words.folder.c_str(),
                 (*rig.left.projection)[0][0], (*rig.left.projection)[0][2], (*rig.left.projection)[1][2],
                 -(*rig.right.projection)[0][3] / (*rig.right.projection)[0][0]);
-    for (const auto& [side, table] : {std::pair{"left", &tables.left()}, std::pair{"right", &tables.right()}})
-        std::printf("%-5s table: cells of %d px, %.1f KiB, worst error %.5f px of %.5f allowed, %.2f %% of the pixels "
-                    "have a source\n",
-                    side, table->cell_px(), static_cast<double>(table->table_bytes()) / 1024, table->worst_error_px(),
-                    RemapTable::kMostErrorPx, 100 * static_cast<double>(table->pixels_with_source()) / pixels);
+    std::printf("tables: %s\n", tables.origin().c_str());
+    print_table("left", tables.left());
+    print_table("right", tables.right());
     std::printf("both pictures rectified in %.2f ms (%s)\n", remap_ms, kernels->name);
     return {};
 }

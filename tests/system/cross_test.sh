@@ -82,6 +82,8 @@ P2: !!opencv-matrix
    data: [ 400., 0., 79.5, -24000., 0., 400., 47.5, 0., 0., 0., 1., 0. ]
 RIG
 
+raw_rig=$checkout/tests/fuzz/corpus/rig/unrectified.yaml # two webcams of 1280 x 720 px
+
 # Everything that is compared, written into one folder by `program` (a command line).
 write_all() { # program, folder
     mkdir -p "$2"
@@ -91,6 +93,9 @@ write_all() { # program, folder
             >/dev/null
     done
     $1 process "$work/left.ppm" "$work/right.ppm" --rig "$work/rig.yaml" -o "$2/cloud.drc" --ply "$2/cloud.ply" >/dev/null
+    for keep in 0 1; do
+        $1 rig tables "$raw_rig" --keep $keep -o "$2/keep-$keep.maps" >/dev/null
+    done
     if [ -n "$right" ]; then
         $1 match "$left" "$right" -o "$2/real.pfm" --disparities 64 --window 9 >/dev/null
     fi

@@ -117,7 +117,7 @@ Result<PairPictures> write_thumbnails(const SeenPair& pair, std::size_t number, 
 Result<PairPictures> write_rectified(const CalibrationRun& run, const SeenPair& pair, const std::string& folder)
 {
     RigFile rig = run.rig;
-    const Result<RectifyTables> tables = RectifyTables::make(rig, kCrop, "the calibration");
+    const Result<RectifyTables> tables = RectifyTables::build(rig, kCrop, "the calibration");
     if (!tables.ok())
         return PairPictures{missing(tables.status()), missing(tables.status())};
     const Kernels* kernels = TRY(choose_kernels("auto"));
