@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -67,8 +68,8 @@ Status report(const Words& words, const CalibrationRun& run, int threads, const 
         return {};
     }
     print_run(run);
-    std::printf("\nboards found in %.2f s, solved in %.2f s (%d threads), peak memory %.1f MiB\n", run.finding_s,
-                run.solving_s, threads, static_cast<double>(memory.peak_bytes) / (1 << 20));
+    std::printf("\nboards found in %.2f s, solved in %.2f s (%d thread%s), peak memory %.1f MiB\n", run.finding_s,
+                run.solving_s, threads, threads == 1 ? "" : "s", static_cast<double>(memory.peak_bytes) / (1 << 20));
     if (outcome.ok())
         std::printf("%s: written%s%s\n", words.output.c_str(), run.rig.id[0] != '\0' ? ", id " : "", run.rig.id);
     std::fflush(stdout); // before the sentence on stderr
@@ -87,7 +88,7 @@ Status run(const Words& words)
     CalibrationPlan plan = words.plan;
     plan.sets = TRY(read_board_words(words.boards));
     if (!(plan.range.near_mm > 0 && plan.range.near_mm < plan.range.far_mm && plan.range.far_mm <= 1e6))
-        return failure(Fault::kUsage, "calibrate: --near-mm must be above 0 and below --far-mm, which is 1000000 at most");
+        return failure(Fault::kUsage, "--near-mm must be above 0 and below --far-mm, which is 1000000 at most");
     CalibrationRun run;
     TRY(list_pairs(plan, run));
     TRY(check(words, run));
@@ -111,7 +112,9 @@ void add_calibrate(CLI::App& program, Command& chosen)
     auto words = std::make_shared<Words>();
     std::map<const CLI::Option*, std::pair<BoardWord::Kind, const std::vector<std::string>*>> ordered;
     const auto add = [&](const char* name, BoardWord::Kind kind, std::vector<std::string>& values, const char* what) {
-        ordered[command->add_option(name, values, what)->allow_extra_args(false)] = {kind, &values};
+        constexpr std::array<const char*, 4> kTypes{"DIR", "CxR", "CxR", "MM"};
+        ordered[command->add_option(name, values, what)->allow_extra_args(false)->type_name(kTypes[kind])] = {kind,
+                                                                                                             &values};
     };
     add("--images", BoardWord::kImages, words->images,
         "folder of pairs: left01.jpg and right01.jpg, 0001_left.png and 0001_right.png, or left/ and right/");

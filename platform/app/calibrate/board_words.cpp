@@ -1,7 +1,7 @@
 #include "board_words.h"
 
+#include <algorithm>
 #include <charconv>
-#include <optional>
 
 namespace dicot::app {
 namespace {
@@ -51,7 +51,7 @@ Status complete(Group& group)
 {
     if (group.boards.size() != group.squares_mm.size())
         return failure(Fault::kUsage,
-                       "calibrate: %zu boards (--corners or --squares) and %zu sizes (--square-mm)%s%.100s: every board "
+                       "%zu boards (--corners or --squares) and %zu sizes (--square-mm)%s%.100s: every board "
                        "needs both",
                        group.boards.size(), group.squares_mm.size(), group.folders.empty() ? "" : " for ",
                        group.folders.empty() ? "" : group.folders.back().c_str());
@@ -88,7 +88,7 @@ Result<std::vector<PictureSet>> read_board_words(std::span<const BoardWord> word
     for (auto group = groups.begin() + 1; group != groups.end(); ++group) {
         if (!all.boards.empty() && !group->boards.empty())
             return failure(Fault::kUsage,
-                           "calibrate: boards stand before and after %.100s: name each folder first, then its board",
+                           "boards stand before and after %.100s: name each folder first, then its board",
                            group->folders.front().c_str());
         const std::vector<Board>& boards = all.boards.empty() ? group->boards : all.boards;
         if (boards.empty())
