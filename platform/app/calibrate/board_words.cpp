@@ -71,7 +71,10 @@ Result<std::vector<PictureSet>> read_board_words(std::span<const BoardWord> word
         if (word.kind == BoardWord::kImages) {
             if (groups.size() == 1 || groups.back().has_board())
                 groups.emplace_back();
-            groups.back().folders.push_back(word.value);
+            std::string folder = word.value;
+            while (folder.size() > 1 && folder.back() == '/')
+                folder.pop_back();
+            groups.back().folders.push_back(std::move(folder));
         } else if (word.kind == BoardWord::kSquareMm) {
             groups.back().squares_mm.push_back(TRY(millimetres(word.value)));
         } else {

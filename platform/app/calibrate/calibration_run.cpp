@@ -19,10 +19,8 @@ namespace {
 using calibration::Board;
 using calibration::BoardSight;
 
-std::string last_part(std::string folder)
+std::string last_part(const std::string& folder)
 {
-    while (folder.size() > 1 && folder.back() == '/')
-        folder.pop_back();
     return folder.substr(folder.rfind('/') + 1);
 }
 

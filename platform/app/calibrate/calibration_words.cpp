@@ -15,6 +15,14 @@ const calibration::ViewOutcome* outcome_of(const CalibrationRun& run, const Seen
     return run.solved && pair.view >= 0 ? &run.calibration.views[static_cast<std::size_t>(pair.view)] : nullptr;
 }
 
+/// Of a pair with a reason not to use it: a board that one camera saw still helps that camera's lens.
+const char* how_used(const SeenPair& pair, const calibration::ViewOutcome* outcome)
+{
+    if (outcome == nullptr || !outcome->used)
+        return "not used";
+    return pair.left.found ? "left only" : "right only";
+}
+
 void print_pairs(const CalibrationRun& run)
 {
     std::size_t widest = 0;
@@ -25,7 +33,7 @@ void print_pairs(const CalibrationRun& run)
     for (const SeenPair& pair : run.pairs) {
         const calibration::ViewOutcome* outcome = outcome_of(run, pair);
         if (!pair.rejected.empty())
-            std::printf("%-*s   not used: %s\n", column, pair.name.c_str(), pair.rejected.c_str());
+            std::printf("%-*s   %s: %s\n", column, pair.name.c_str(), how_used(pair, outcome), pair.rejected.c_str());
         else if (outcome != nullptr)
             std::printf("%-*s   %8.3f %7.3f px\n", column, pair.name.c_str(), outcome->rms_left_px,
                         outcome->rms_right_px);
