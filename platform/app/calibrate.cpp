@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "distinct_files.h"
 
+#include "dicot/os/clock.h"
 #include "dicot/os/output_file.h"
 #include "dicot/os/process_memory.h"
 #include "dicot/os/thread_crew.h"
@@ -62,6 +63,7 @@ Status report(const Words& words, const CalibrationRun& run, int threads, const 
         json["written"] = outcome.ok();
         json["refused"] = outcome.message();
         json["threads"] = threads;
+        json["processor_s"] = static_cast<double>(process_cpu_us()) * 1e-6;
         json["peak_memory_bytes"] = memory.peak_bytes;
         // Names of files may be any bytes.
         std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
