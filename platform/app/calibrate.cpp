@@ -3,8 +3,10 @@
 #include "calibrate/calibration_date.h"
 #include "calibrate/calibration_run.h"
 #include "calibrate/calibration_words.h"
+#include "calibrate/report.h"
 #include "commands.h"
 #include "distinct_files.h"
+#include "output_folder.h"
 
 #include "dicot/os/clock.h"
 #include "dicot/os/output_file.h"
@@ -19,6 +21,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <unistd.h>
 #include <vector>
 
 namespace dicot::app {
@@ -29,18 +32,22 @@ struct Words
     std::vector<BoardWord> boards; ///< filled from the options below, in their order
     std::vector<std::string> images, corners, squares, square_mm;
     CalibrationPlan plan;
-    std::string output;
+    std::string output, report;
     int threads = 0;
     bool force = false;
     bool json = false;
 };
 
-Status check(const Words& words, const CalibrationRun& run)
+/// Looks at the outputs before the work.
+Status check(const Words& words, const CalibrationPlan& plan, const CalibrationRun& run)
 {
     for (const SeenPair& pair : run.pairs)
         TRY(check_distinct({pair.left_path, pair.right_path}, {words.output}));
+    for (const PictureSet& set : plan.sets)
+        TRY(check_distinct({set.folder}, {words.report}));
     OutputFile can_be_written;
-    return can_be_written.open(words.output.c_str());
+    TRY(can_be_written.open(words.output.c_str()));
+    return words.report.empty() ? Status{} : make_folder(words.report);
 }
 
 /// What a verdict of redo says about the rig file.
@@ -54,35 +61,63 @@ Status refuse_redo(const Words& words, const CalibrationRun& run)
                    run.quality.advice.empty() ? "take new pictures" : run.quality.advice.front().c_str());
 }
 
-Status report(const Words& words, const CalibrationRun& run, int threads, const Status& outcome)
+struct Written
+{
+    bool rig = false;
+    bool page = false;
+    Status outcome; ///< of the whole command
+};
+
+/// The page first: should that fail, the rig file is still the former one. A refused run replaces nothing: its page is
+/// written only where none stands.
+Written write_outputs(const Words& words, const CalibrationRun& run, const Status& calibrated)
+{
+    Written written;
+    written.outcome = calibrated.ok() ? refuse_redo(words, run) : calibrated;
+    const std::string page = words.report + "/index.html";
+    if (!words.report.empty() && (written.outcome.ok() || ::access(page.c_str(), F_OK) != 0)) {
+        const Status reported = write_report(run, words.report);
+        written.page = reported.ok();
+        if (written.outcome.ok())
+            written.outcome = reported;
+    }
+    if (written.outcome.ok())
+        written.outcome = write_rig_file(words.output.c_str(), run.rig);
+    written.rig = written.outcome.ok();
+    return written;
+}
+
+Status tell(const Words& words, const CalibrationRun& run, int threads, const Written& written)
 {
     const ProcessMemory memory = TRY(process_memory());
     if (words.json) {
         nlohmann::json json = as_json(run);
         json["output"] = words.output;
-        json["written"] = outcome.ok();
-        json["refused"] = outcome.message();
+        json["written"] = written.rig;
+        if (!words.report.empty()) {
+            json["report"] = words.report;
+            json["report_written"] = written.page;
+        }
+        json["refused"] = written.outcome.message();
         json["threads"] = threads;
         json["processor_s"] = static_cast<double>(process_cpu_us()) * 1e-6;
         json["peak_memory_bytes"] = memory.peak_bytes;
         // Names of files may be any bytes.
         std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-        return {};
+    } else {
+        print_run(run);
+        std::printf("\nboards found in %.2f s, solved in %.2f s (%d thread%s), peak memory %.1f MiB\n", run.finding_s,
+                    run.solving_s, threads, threads == 1 ? "" : "s",
+                    static_cast<double>(memory.peak_bytes) / (1 << 20));
+        if (written.page)
+            std::printf("%s/index.html: the report\n", words.report.c_str());
+        else if (!words.report.empty())
+            std::printf("%s/index.html: that of an earlier run stays\n", words.report.c_str());
+        if (written.rig)
+            std::printf("%s: written, %s\n", words.output.c_str(), run.rig.id);
     }
-    print_run(run);
-    std::printf("\nboards found in %.2f s, solved in %.2f s (%d thread%s), peak memory %.1f MiB\n", run.finding_s,
-                run.solving_s, threads, threads == 1 ? "" : "s", static_cast<double>(memory.peak_bytes) / (1 << 20));
-    if (outcome.ok())
-        std::printf("%s: written%s%s\n", words.output.c_str(), run.rig.id[0] != '\0' ? ", id " : "", run.rig.id);
     std::fflush(stdout); // before the sentence on stderr
     return {};
-}
-
-Status write_outputs(const Words& words, CalibrationRun& run)
-{
-    TRY(date_rig(run.rig));
-    TRY(refuse_redo(words, run));
-    return write_rig_file(words.output.c_str(), run.rig);
 }
 
 Status run(const Words& words)
@@ -92,18 +127,18 @@ Status run(const Words& words)
     if (!(plan.range.near_mm > 0 && plan.range.near_mm < plan.range.far_mm && plan.range.far_mm <= 1e6))
         return failure(Fault::kUsage, "--near-mm must be above 0 and below --far-mm, which is 1000000 at most");
     CalibrationRun run;
+    TRY(date_rig(run.rig));
     TRY(list_pairs(plan, run));
-    TRY(check(words, run));
+    TRY(check(words, plan, run));
 
     const int threads =
         words.threads > 0 ? words.threads : std::min(ThreadCrew::processors(), ThreadCrew::kMaxThreads);
     ThreadCrew crew(threads);
     TRY(crew.started());
-    Status outcome = calibrate(plan, run, crew);
-    if (outcome.ok())
-        outcome = write_outputs(words, run);
-    TRY(report(words, run, threads, outcome));
-    return outcome;
+    const Status calibrated = calibrate(plan, run, crew);
+    const Written written = write_outputs(words, run, calibrated);
+    TRY(tell(words, run, threads, written));
+    return written.outcome;
 }
 
 } // namespace
@@ -124,6 +159,7 @@ void add_calibrate(CLI::App& program, Command& chosen)
     add("--squares", BoardWord::kSquares, words->squares, "the same counted in squares: 10x7 has 9x6 corners");
     add("--square-mm", BoardWord::kSquareMm, words->square_mm, "side of one square, mm");
     command->add_option("-o,--output", words->output, "rig file (YAML)")->required();
+    command->add_option("--report", words->report, "folder for a page about it: index.html and its pictures");
     command->add_option("--near-mm", words->plan.range.near_mm, "where the plants begin")->capture_default_str();
     command->add_option("--far-mm", words->plan.range.far_mm, "where they end")->capture_default_str();
     command->add_flag("--fit-k3", words->plan.fit_k3, "fit the third radial distortion too, for wide lenses");

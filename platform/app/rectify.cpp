@@ -1,6 +1,7 @@
 // dicot rectify: a pair as the cameras gave it in, the same pair with parallel rows out.
 #include "commands.h"
 #include "match_words.h"
+#include "output_folder.h"
 #include "process_bench.h"
 #include "rectify_rig.h"
 
@@ -9,12 +10,9 @@
 #include "dicot/picture/write_picture.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <memory>
 #include <string>
-#include <sys/stat.h>
 
 namespace dicot::app {
 namespace {
@@ -36,19 +34,6 @@ Status check_size(const std::string& picture, const std::string& rig_path, const
         return failure(Fault::kBadData,
                        "%s is %d x %d px, and %s is for %d x %d: use the rig file of these cameras and this size",
                        picture.c_str(), size.width, size.height, rig_path.c_str(), rig.width, rig.height);
-    return {};
-}
-
-Status make_folder(const std::string& path)
-{
-    struct stat there
-    {
-    };
-    if (::stat(path.c_str(), &there) == 0 && S_ISDIR(there.st_mode))
-        return {};
-    if (::mkdir(path.c_str(), 0777) != 0)
-        return failure(Fault::kCannotCreate, "%s: cannot be created as a folder (%s): name another one", path.c_str(),
-                       std::strerror(errno));
     return {};
 }
 

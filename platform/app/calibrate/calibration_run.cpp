@@ -7,6 +7,7 @@
 #include "dicot/os/clock.h"
 #include "dicot/os/shown_path.h"
 #include "dicot/picture/read_picture.h"
+#include "dicot/rig/rig_id.h"
 
 #include <algorithm>
 #include <atomic>
@@ -31,13 +32,6 @@ std::string folders_of(const CalibrationPlan& plan)
     for (const PictureSet& set : plan.sets)
         names += (names.empty() ? "" : ", ") + shown_name(plan.sets.size() == 1 ? set.folder : last_part(set.folder));
     return names.substr(0, 150);
-}
-
-Status with_folders(const CalibrationPlan& plan, const Status& status)
-{
-    if (status.ok())
-        return status;
-    return failure(status.fault(), "%s: %s", folders_of(plan).c_str(), status.message());
 }
 
 /// Refuses pictures of different sizes; those without a readable head are judged later.
@@ -215,6 +209,7 @@ Status solve(const CalibrationPlan& plan, CalibrationRun& run)
         return failure(Fault::kBadData, "the pictures do not determine the cameras: take more pairs, the board tilted by "
                                         "20 to 40 degrees to all four sides, near and far");
     set_rectification(run.rig, TRY(rectify(run.calibration.rig, kCrop, "the calibrated cameras")));
+    set_id(run.rig);
     return {};
 }
 
@@ -245,14 +240,19 @@ Status list_pairs(const CalibrationPlan& plan, CalibrationRun& run)
 Status calibrate(const CalibrationPlan& plan, CalibrationRun& run, Crew& crew)
 {
     const std::int64_t start_us = monotonic_us();
-    const Status found = find_boards(plan, run, crew);
+    Status outcome = find_boards(plan, run, crew);
     const std::int64_t found_us = monotonic_us();
     run.finding_s = static_cast<double>(found_us - start_us) * 1e-6;
-    TRY(with_folders(plan, found));
-    TRY(with_folders(plan, solve(plan, run)));
+    if (outcome.ok())
+        outcome = solve(plan, run);
     run.solving_s = static_cast<double>(monotonic_us() - found_us) * 1e-6;
-    run.solved = true;
-    return {};
+    run.solved = outcome.ok();
+    if (run.solved)
+        return {};
+    run.calibration = {};
+    run.quality = {};
+    run.quality.advice = {outcome.message()};
+    return failure(outcome.fault(), "%s: %s", folders_of(plan).c_str(), outcome.message());
 }
 
 } // namespace dicot::app

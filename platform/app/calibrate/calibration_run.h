@@ -64,8 +64,8 @@ struct CalibrationRun
 Status list_pairs(const CalibrationPlan& plan, CalibrationRun& run);
 
 /// Looks for the boards and solves. The result is the same for every crew. After a failure the run holds what was seen
-/// until then: the pairs and why they are not used. Fault::kBadData, with the reason and advice: no board anywhere,
-/// and all that solve_stereo() refuses.
+/// until then: the pairs and why they are not used, no calibration, and the reason as quality.advice. Fault::kBadData,
+/// with the reason and advice: no board anywhere, and all that solve_stereo() refuses.
 Status calibrate(const CalibrationPlan& plan, CalibrationRun& run, Crew& crew);
 
 } // namespace dicot::app
