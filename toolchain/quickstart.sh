@@ -137,7 +137,7 @@ step 5 "Against the ground truth: dicot match --dense, dicot evaluate"
 
 step 6 "A rig of one's own: dicot calibrate, on 13 pairs of a chessboard out of the same package"
 "$dicot" calibrate --images "$pictures/boards" --corners 9x6 --square-mm 30 --near-mm 250 --far-mm 550 \
-    -o "$out/webcams.yaml"
+    -o "$out/webcams.yaml" --report "$out/calibration"
 
 step 7 "Done in $(($(date +%s) - packaged)) s (and $((packaged - started)) s for packages). In $PWD/$out:"
 cat <<WHERE
@@ -148,6 +148,7 @@ cat <<WHERE
   dense.pfm      every pixel's disparity, as the benchmarks want it
   rig.yaml       the geometry of that pair, which was rectified before it was published
   webcams.yaml   the geometry of two webcams, as calibrated from pictures of a chessboard
+  calibration    how far to trust it: open calibration/index.html
 
 Next, in $PWD:
   $dicot info $out/cloud.drc

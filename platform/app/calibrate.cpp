@@ -61,6 +61,16 @@ Status refuse_redo(const Words& words, const CalibrationRun& run)
                    run.quality.advice.empty() ? "take new pictures" : run.quality.advice.front().c_str());
 }
 
+std::string page_in(const std::string& folder)
+{
+    return folder + "/index.html";
+}
+
+bool is_there(const std::string& path)
+{
+    return ::access(path.c_str(), F_OK) == 0;
+}
+
 struct Written
 {
     bool rig = false;
@@ -74,8 +84,7 @@ Written write_outputs(const Words& words, const CalibrationRun& run, const Statu
 {
     Written written;
     written.outcome = calibrated.ok() ? refuse_redo(words, run) : calibrated;
-    const std::string page = words.report + "/index.html";
-    if (!words.report.empty() && (written.outcome.ok() || ::access(page.c_str(), F_OK) != 0)) {
+    if (!words.report.empty() && (written.outcome.ok() || !is_there(page_in(words.report)))) {
         const Status reported = write_report(run, words.report);
         written.page = reported.ok();
         if (written.outcome.ok())
@@ -110,9 +119,9 @@ Status tell(const Words& words, const CalibrationRun& run, int threads, const Wr
                     run.solving_s, threads, threads == 1 ? "" : "s",
                     static_cast<double>(memory.peak_bytes) / (1 << 20));
         if (written.page)
-            std::printf("%s/index.html: the report\n", words.report.c_str());
-        else if (!words.report.empty())
-            std::printf("%s/index.html: that of an earlier run stays\n", words.report.c_str());
+            std::printf("%s: the report\n", page_in(words.report).c_str());
+        else if (!words.report.empty() && is_there(page_in(words.report)))
+            std::printf("%s: that of an earlier run stays\n", page_in(words.report).c_str());
         if (written.rig)
             std::printf("%s: written, %s\n", words.output.c_str(), run.rig.id);
     }

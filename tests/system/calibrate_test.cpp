@@ -131,8 +131,10 @@ TEST(CalibrateCommand, FindsAllRealPairsAndWritesARigThatLoads)
         return;
     const TempFolder folder;
     const std::string rig = folder.path("rig.yaml");
-    const ToolRun run = dicot("calibrate " + kRealPairs + "--near-mm 250 --far-mm 550 -o " + rig);
+    const ToolRun run = dicot("calibrate " + kRealPairs + "--near-mm 250 --far-mm 550 --report " + folder.path("report") +
+                              " -o " + rig);
     ASSERT_EQ(run.exit_code, 0) << run.output;
+    EXPECT_TRUE(std::filesystem::exists(folder.path("report/index.html"))) << run.output;
     EXPECT_TRUE(contains(run.output, "13 of 13 pairs")) << run.output;
     EXPECT_TRUE(contains(run.output, "verdict: ")) << run.output;
     const RigFile read = read_rig_file(rig.c_str()).value();
@@ -147,6 +149,15 @@ TEST(CalibrateCommand, FindsAllRealPairsAndWritesARigThatLoads)
     const ToolRun shown = dicot("rig show " + rig);
     EXPECT_EQ(shown.exit_code, 0) << shown.output;
     EXPECT_TRUE(contains(shown.output, "as the cameras give them")) << shown.output;
+    EXPECT_TRUE(contains(shown.output, "13 pairs from 2")) << shown.output;
+    EXPECT_TRUE(contains(shown.output, "calibrated at 20")) << shown.output;
+    EXPECT_EQ(std::string(read.id).rfind("rig-", 0), 0U) << read.id;
+    ASSERT_TRUE(read.quality);
+    const ToolRun as_json = dicot("rig show --json " + rig);
+    const nlohmann::json json = nlohmann::json::parse(as_json.output);
+    EXPECT_EQ(json["quality"]["pairs"], 13);
+    EXPECT_EQ(json["quality"]["rms_px"].get<double>(), read.quality->rms_px);
+    EXPECT_EQ(json["calibrated_at"], read.calibrated_at);
 }
 
 TEST(CalibrateCommand, WritesTheSameBytesWithAnyNumberOfThreads)
@@ -232,6 +243,14 @@ TEST(CalibrateCommand, AVerdictOfRedoIsNotWrittenUnlessForced)
     photograph_pairs(folder, places);
     expect_refusal(in(folder) + kBoardWords, 65, "the verdict is redo: 5 pairs were used: take at least 10");
     const std::string out = folder.path("rig.yaml");
+    // The page tells why, but takes no other page's place.
+    const std::string report = folder.path("report");
+    EXPECT_EQ(dicot("calibrate " + in(folder) + kBoardWords + "--report " + report + " -o " + out).exit_code, 65);
+    EXPECT_TRUE(std::filesystem::exists(report + "/index.html"));
+    EXPECT_FALSE(std::filesystem::exists(out));
+    folder.write("report/index.html", std::string("an earlier page"));
+    EXPECT_EQ(dicot("calibrate " + in(folder) + kBoardWords + "--report " + report + " -o " + out).exit_code, 65);
+    EXPECT_EQ(test::bytes_of(report + "/index.html").size(), 15U);
     const ToolRun forced = dicot("calibrate " + in(folder) + kBoardWords + "--force -o " + out);
     EXPECT_EQ(forced.exit_code, 0) << forced.output;
     EXPECT_TRUE(contains(forced.output, "verdict: redo")) << forced.output;
@@ -327,6 +346,8 @@ TEST(CalibrateRefusal, LooksAtTheOutputBeforeTheWork)
         picture_of_nothing(folder.path(name), 200, 150);
     const std::string words = "calibrate " + in(folder) + kBoardWords + "-o ";
     EXPECT_EQ(dicot(words + folder.path("absent/rig.yaml")).exit_code, 73);
+    EXPECT_EQ(dicot(words + folder.path("rig.yaml") + " --report " + folder.path("absent/report")).exit_code, 73);
+    EXPECT_EQ(dicot(words + folder.path("rig.yaml") + " --report " + folder.path("")).exit_code, 64);
     const test::Bytes before = test::bytes_of(folder.path("left1.pgm"));
     EXPECT_EQ(dicot(words + folder.path("left1.pgm")).exit_code, 64);
     EXPECT_EQ(test::bytes_of(folder.path("left1.pgm")), before);
