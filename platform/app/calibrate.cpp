@@ -55,10 +55,9 @@ Status refuse_redo(const Words& words, const CalibrationRun& run)
 {
     if (run.quality.verdict != calibration::Verdict::kRedo || words.force)
         return {};
-    return failure(Fault::kBadData,
-                   "%.100s is not written, for the verdict is redo: %s (or write it all the same with --force)",
-                   words.output.c_str(),
-                   run.quality.advice.empty() ? "take new pictures" : run.quality.advice.front().c_str());
+    return failure(
+        Fault::kBadData, "%.100s is not written, for the verdict is redo: %s (or write it all the same with --force)",
+        words.output.c_str(), run.quality.advice.empty() ? "take new pictures" : run.quality.advice.front().c_str());
 }
 
 std::string page_in(const std::string& folder)
@@ -140,8 +139,7 @@ Status run(const Words& words)
     TRY(list_pairs(plan, run));
     TRY(check(words, plan, run));
 
-    const int threads =
-        words.threads > 0 ? words.threads : std::min(ThreadCrew::processors(), ThreadCrew::kMaxThreads);
+    const int threads = words.threads > 0 ? words.threads : std::min(ThreadCrew::processors(), ThreadCrew::kMaxThreads);
     ThreadCrew crew(threads);
     TRY(crew.started());
     const Status calibrated = calibrate(plan, run, crew);
@@ -160,7 +158,7 @@ void add_calibrate(CLI::App& program, Command& chosen)
     const auto add = [&](const char* name, BoardWord::Kind kind, std::vector<std::string>& values, const char* what) {
         constexpr std::array<const char*, 4> kTypes{"DIR", "CxR", "CxR", "MM"};
         ordered[command->add_option(name, values, what)->allow_extra_args(false)->type_name(kTypes[kind])] = {kind,
-                                                                                                             &values};
+                                                                                                              &values};
     };
     add("--images", BoardWord::kImages, words->images,
         "folder of pairs: left01.jpg and right01.jpg, 0001_left.png and 0001_right.png, or left/ and right/");
@@ -173,7 +171,8 @@ void add_calibrate(CLI::App& program, Command& chosen)
     command->add_option("--far-mm", words->plan.range.far_mm, "where they end")->capture_default_str();
     command->add_flag("--fit-k3", words->plan.fit_k3, "fit the third radial distortion too, for wide lenses");
     command->add_flag("--fit-warp", words->plan.fit_warp, "fit a bow of the board, for one that is not flat");
-    command->add_option("--threads", words->threads, "worker threads; 0: one for each processor. Never changes the result")
+    command
+        ->add_option("--threads", words->threads, "worker threads; 0: one for each processor. Never changes the result")
         ->check(CLI::Range(0, ThreadCrew::kMaxThreads))
         ->capture_default_str();
     command->add_flag("--force", words->force, "write the rig file even if the verdict is redo");
@@ -181,7 +180,8 @@ void add_calibrate(CLI::App& program, Command& chosen)
     command->footer(
         "Several boards: name each folder and then its board,\n"
         "  --images A --corners 9x9 --square-mm 41 --images B --corners 7x7 --square-mm 46\n"
-        "Folders that stand together share the boards behind them; boards before all folders belong to every folder. A\n"
+        "Folders that stand together share the boards behind them; boards before all folders belong to every folder. "
+        "A\n"
         "folder with several boards is searched for each. Exit code 65, and no rig file, when the verdict is redo.");
     command->callback([words, command, ordered, &chosen] {
         std::map<const CLI::Option*, std::size_t> taken;

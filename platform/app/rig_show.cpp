@@ -38,12 +38,13 @@ nlohmann::json as_json(const RigQuality& quality)
 
 void print(const RigQuality& quality)
 {
-    std::printf("verdict: %s; %d pairs from %.0f to %.0f mm, RMS %.3f px; rows miss each other by %.3f px RMS, 95 %% by "
-                "less than %.3f px\n",
-                quality.verdict, quality.pairs, quality.nearest_mm, quality.farthest_mm, quality.rms_px,
-                quality.epipolar_rms_px, quality.epipolar_p95_px);
-    std::printf("held-out boards: shape off by %.2f mm, distance by %.2f mm; depth error to expect:", quality.held_out_mm,
-                quality.held_out_depth_mm);
+    std::printf(
+        "verdict: %s; %d pairs from %.0f to %.0f mm, RMS %.3f px; rows miss each other by %.3f px RMS, 95 %% by "
+        "less than %.3f px\n",
+        quality.verdict, quality.pairs, quality.nearest_mm, quality.farthest_mm, quality.rms_px,
+        quality.epipolar_rms_px, quality.epipolar_p95_px);
+    std::printf("held-out boards: shape off by %.2f mm, distance by %.2f mm; depth error to expect:",
+                quality.held_out_mm, quality.held_out_depth_mm);
     for (std::size_t k = 0; k < RigQuality::kDepthsMm.size(); ++k)
         std::printf("%s +- %.2f mm at %d mm", k == 0 ? "" : ",", quality.depth_error_mm[k], RigQuality::kDepthsMm[k]);
     std::printf("\n");

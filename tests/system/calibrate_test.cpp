@@ -48,7 +48,8 @@ StereoRig small_rig()
 }
 
 /// One camera's picture of a board.
-void photograph_to(const std::string& path, const StereoRig& rig, bool right, const Board& board, const Placement& place)
+void photograph_to(const std::string& path, const StereoRig& rig, bool right, const Board& board,
+                   const Placement& place)
 {
     test::Scene scene;
     scene.board = board;
@@ -67,10 +68,13 @@ void photograph_to(const std::string& path, const StereoRig& rig, bool right, co
 std::vector<Placement> varied_places()
 {
     std::vector<Placement> places;
-    for (const auto& [tilt_x, tilt_y, x, y, z] :
-         std::vector<std::array<double, 5>>{{25, 0, -60, -40, 420},   {-25, 5, 90, 40, 430},  {0, 30, 60, -50, 460},
-                                            {5, -30, -50, 60, 450},   {20, 20, 130, 90, 640}, {-20, 25, -100, -80, 600},
-                                            {-25, -25, 20, 0, 500}})
+    for (const auto& [tilt_x, tilt_y, x, y, z] : std::vector<std::array<double, 5>>{{25, 0, -60, -40, 420},
+                                                                                    {-25, 5, 90, 40, 430},
+                                                                                    {0, 30, 60, -50, 460},
+                                                                                    {5, -30, -50, 60, 450},
+                                                                                    {20, 20, 130, 90, 640},
+                                                                                    {-20, 25, -100, -80, 600},
+                                                                                    {-25, -25, 20, 0, 500}})
         places.push_back({test::turn_about(tilt_x, tilt_y, 0.2 * x), {x + 25, y, z}});
     return places;
 }
@@ -96,8 +100,8 @@ void picture_of_nothing(const std::string& path, int width, int height)
             file.put(static_cast<char>(60 + (x * 3 + y * y) % 120));
 }
 
-/// Runs calibrate over a rig file that is there already; the exit code and the sentence must be these, and the file must
-/// keep its bytes.
+/// Runs calibrate over a rig file that is there already; the exit code and the sentence must be these, and the file
+/// must keep its bytes.
 void expect_refusal(const std::string& words, int exit_code, const std::string& sentence)
 {
     const TempFolder out;
@@ -131,8 +135,8 @@ TEST(CalibrateCommand, FindsAllRealPairsAndWritesARigThatLoads)
         return;
     const TempFolder folder;
     const std::string rig = folder.path("rig.yaml");
-    const ToolRun run = dicot("calibrate " + kRealPairs + "--near-mm 250 --far-mm 550 --report " + folder.path("report") +
-                              " -o " + rig);
+    const ToolRun run = dicot("calibrate " + kRealPairs + "--near-mm 250 --far-mm 550 --report " +
+                              folder.path("report") + " -o " + rig);
     ASSERT_EQ(run.exit_code, 0) << run.output;
     EXPECT_TRUE(std::filesystem::exists(folder.path("report/index.html"))) << run.output;
     EXPECT_TRUE(contains(run.output, "13 of 13 pairs")) << run.output;
@@ -300,7 +304,8 @@ TEST(CalibrateRefusal, SaysThatThereAreTooFewPairs)
     std::vector<Placement> places = varied_places();
     places.resize(3);
     photograph_pairs(folder, places);
-    expect_refusal(in(folder) + kBoardWords, 65, "3 pairs show the whole board in both pictures; at least 4 are needed");
+    expect_refusal(in(folder) + kBoardWords, 65,
+                   "3 pairs show the whole board in both pictures; at least 4 are needed");
 }
 
 TEST(CalibrateRefusal, NamesThePictureOfAnotherSize)
@@ -321,7 +326,8 @@ TEST(CalibrateRefusal, SaysThatPicturesAreMissing)
         picture_of_nothing(folder.path(name), 200, 150);
     expect_refusal("--images " + folder.path("none") + kBoardWords, 66, "no PNG, JPEG or PPM pictures");
     expect_refusal("--images " + folder.path("absent") + kBoardWords, 66, "No such file");
-    expect_refusal("--images " + folder.path("one") + kBoardWords, 66, "2 pictures of the left camera and none of the right");
+    expect_refusal("--images " + folder.path("one") + kBoardWords, 66,
+                   "2 pictures of the left camera and none of the right");
 }
 
 TEST(CalibrateRefusal, SaysWhichWordsAreWrong)
@@ -330,7 +336,8 @@ TEST(CalibrateRefusal, SaysWhichWordsAreWrong)
     for (const char* name : {"left1.pgm", "right1.pgm"})
         picture_of_nothing(folder.path(name), 200, 150);
     for (const char* corners : {"9", "9x", "1000x1000"})
-        expect_refusal(in(folder) + " --corners " + corners + " --square-mm 30", 64, corners[1] == '0' ? "1000" : "9x6");
+        expect_refusal(in(folder) + " --corners " + corners + " --square-mm 30", 64,
+                       corners[1] == '0' ? "1000" : "9x6");
     for (const char* square : {"0", "-3", "nan"})
         expect_refusal(in(folder) + " --corners 9x6 --square-mm " + square, 64, square);
     expect_refusal(in(folder), 64, "which board");

@@ -116,8 +116,19 @@ TEST(PairNames, ANumberMakesOnePair)
 TEST(PairNames, OfHostileFilesAreJustNames)
 {
     const std::string digits(250, '9');
-    const Names names{"left" + digits + ".png", "right" + digits + ".png", "left\x01\x1b[2J.png", "right\x01\x1b[2J.png",
-                      "left\xff\xfe.png", "right\xff\xfe.png", "left*.png", "*left.png", ".png", "/", "", "left", "a..png"};
+    const Names names{"left" + digits + ".png",
+                      "right" + digits + ".png",
+                      "left\x01\x1b[2J.png",
+                      "right\x01\x1b[2J.png",
+                      "left\xff\xfe.png",
+                      "right\xff\xfe.png",
+                      "left*.png",
+                      "*left.png",
+                      ".png",
+                      "/",
+                      "",
+                      "left",
+                      "a..png"};
     EXPECT_EQ(pair_names(names).pairs.size(), 3U);
     EXPECT_EQ(pair_names(names).pairs.size() * 2 + pair_names(names).alone.size(), names.size());
 }
@@ -228,21 +239,29 @@ TEST(BoardWords, ABoardBelongsToTheFoldersBeforeIt)
     EXPECT_EQ(meaning({nine, s41, a, b}), "A: 9x9@41;B: 9x9@41;");
     EXPECT_EQ(meaning({a, nine, s41, eight, s46}), "A: 9x9@41 7x7@46;");
     EXPECT_EQ(meaning({a, b, nine, eight, s41, s46}), "A: 9x9@41 7x7@46;B: 9x9@41 7x7@46;");
-    for (const auto& words : std::vector<std::vector<Word>>{
-             {}, {nine, s41}, {a}, {a, nine}, {a, s41}, {a, nine, s41, b}, {nine, s41, a, eight, s46}, {a, nine, s41, s46}})
+    for (const auto& words : std::vector<std::vector<Word>>{{},
+                                                            {nine, s41},
+                                                            {a},
+                                                            {a, nine},
+                                                            {a, s41},
+                                                            {a, nine, s41, b},
+                                                            {nine, s41, a, eight, s46},
+                                                            {a, nine, s41, s46}})
         EXPECT_EQ(meaning(words).rfind("refused: ", 0), 0U) << meaning(words);
 }
 
 TEST(BoardWords, NumbersThatAreNoneAreRefused)
 {
-    for (const char* corners : {"9", "9x", "x6", "", "9x6x5", "9 x 6", "9x6 ", "9.0x6", "1000x1000", "2x2", "-9x6",
-                                "99999999999999999999x6", "9\xc3\x97" "6"})
-        EXPECT_EQ(meaning({{Word::kImages, "A"}, {Word::kCorners, corners}, {Word::kSquareMm, "30"}}).rfind("refused", 0),
-                  0U)
+    for (const char* corners :
+         {"9", "9x", "x6", "", "9x6x5", "9 x 6", "9x6 ", "9.0x6", "1000x1000", "2x2", "-9x6", "99999999999999999999x6",
+          "9\xc3\x97"
+          "6"})
+        EXPECT_EQ(
+            meaning({{Word::kImages, "A"}, {Word::kCorners, corners}, {Word::kSquareMm, "30"}}).rfind("refused", 0), 0U)
             << corners;
     for (const char* square : {"0", "-3", "nan", "inf", "", "30mm", "1e300", "0x1p4"})
-        EXPECT_EQ(meaning({{Word::kImages, "A"}, {Word::kCorners, "9x6"}, {Word::kSquareMm, square}}).rfind("refused", 0),
-                  0U)
+        EXPECT_EQ(
+            meaning({{Word::kImages, "A"}, {Word::kCorners, "9x6"}, {Word::kSquareMm, square}}).rfind("refused", 0), 0U)
             << square;
 }
 

@@ -95,9 +95,10 @@ Result<std::vector<PictureSet>> read_board_words(std::span<const BoardWord> word
                            group->folders.front().c_str());
         const std::vector<Board>& boards = all.boards.empty() ? group->boards : all.boards;
         if (boards.empty())
-            return failure(Fault::kUsage,
-                           "--images %.100s: say which board it shows: --corners 9x6 --square-mm 30 (or --squares 10x7)",
-                           group->folders.back().c_str());
+            return failure(
+                Fault::kUsage,
+                "--images %.100s: say which board it shows: --corners 9x6 --square-mm 30 (or --squares 10x7)",
+                group->folders.back().c_str());
         for (const std::string& folder : group->folders)
             sets.push_back({folder, boards});
     }

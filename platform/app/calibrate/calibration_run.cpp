@@ -48,9 +48,9 @@ Status take_size(CalibrationRun& run)
             }
     if (sizes.empty())
         return {};
-    const auto usual = std::max_element(counts.begin(), counts.end(),
-                                        [](const auto& a, const auto& b) { return a.second < b.second; })
-                           ->first;
+    const auto usual = std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) {
+                           return a.second < b.second;
+                       })->first;
     for (const auto& [path, sides] : sizes)
         if (sides != usual)
             return failure(Fault::kBadData,
@@ -206,8 +206,9 @@ Status solve(const CalibrationPlan& plan, CalibrationRun& run)
     run.quality = assess(run.task, run.calibration, plan.range);
     fill_rig(plan, run);
     if (!all_finite(*run.rig.quality))
-        return failure(Fault::kBadData, "the pictures do not determine the cameras: take more pairs, the board tilted by "
-                                        "20 to 40 degrees to all four sides, near and far");
+        return failure(Fault::kBadData,
+                       "the pictures do not determine the cameras: take more pairs, the board tilted by "
+                       "20 to 40 degrees to all four sides, near and far");
     set_rectification(run.rig, TRY(rectify(run.calibration.rig, kCrop, "the calibrated cameras")));
     set_id(run.rig);
     return {};

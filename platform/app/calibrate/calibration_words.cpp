@@ -106,9 +106,8 @@ json json_of(const CalibrationRun& run, const calibration::Quality& q)
 {
     json depth = json::array();
     for (const calibration::DepthError& d : q.depth)
-        depth.push_back({{"distance_mm", d.distance_mm},
-                         {"calibration_mm", d.calibration_mm},
-                         {"corner_mm", d.corner_mm}});
+        depth.push_back(
+            {{"distance_mm", d.distance_mm}, {"calibration_mm", d.calibration_mm}, {"corner_mm", d.corner_mm}});
     return {{"verdict", name_of(q.verdict)},
             {"advice", q.advice},
             {"epipolar_rms_px", q.epipolar_rms_px},

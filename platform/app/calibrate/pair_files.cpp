@@ -21,7 +21,8 @@ struct Candidate
     const std::string* name = nullptr;
 };
 
-/// The first two, one of each side, that `same` calls equal; both lists are sorted accordingly. Ends where there are none.
+/// The first two, one of each side, that `same` calls equal; both lists are sorted accordingly. Ends where there are
+/// none.
 template <typename Iterator, typename Less>
 std::pair<Iterator, Iterator> first_common(Iterator left, Iterator left_end, Iterator right, Iterator right_end,
                                            Less less)
@@ -142,9 +143,10 @@ Status why_no_pair(const std::string& folder, const PairedNames& names, bool has
     const char* path = shown_path(folder.c_str());
     if (names.alone.empty())
         return failure(Fault::kNoInput, "%s: no PNG, JPEG or PPM pictures in it%s", path,
-                       has_folders ? "; folders in it are looked into only if they are called left and right: name each "
-                                     "one with --images"
-                                   : "");
+                       has_folders
+                           ? "; folders in it are looked into only if they are called left and right: name each "
+                             "one with --images"
+                           : "");
     if (names.lefts > 0 && names.rights == 0)
         return failure(Fault::kNoInput,
                        "%s: %d pictures of the left camera and none of the right one: both are needed, as left01.jpg "
@@ -155,8 +157,9 @@ Status why_no_pair(const std::string& folder, const PairedNames& names, bool has
                        "%s: %d pictures of the right camera and none of the left one: both are needed, as left01.jpg "
                        "and right01.jpg",
                        path, names.rights);
-    return failure(Fault::kNoInput, "%s: no pair among %zu pictures (%.60s: %.100s): name them left01.jpg and right01.jpg",
-                   path, names.alone.size(), names.alone.front().name.c_str(), names.alone.front().reason.c_str());
+    return failure(Fault::kNoInput,
+                   "%s: no pair among %zu pictures (%.60s: %.100s): name them left01.jpg and right01.jpg", path,
+                   names.alone.size(), names.alone.front().name.c_str(), names.alone.front().reason.c_str());
 }
 
 } // namespace
@@ -179,8 +182,8 @@ PairedNames pair_names(std::span<const std::string> names)
     std::sort(sided.begin(), sided.end(),
               [](const Candidate& a, const Candidate& b) { return a.said.number < b.said.number; });
     for (auto group = sided.begin(); group != sided.end();) {
-        const auto end = std::find_if(group, sided.end(),
-                                      [&](const Candidate& c) { return c.said.number != group->said.number; });
+        const auto end =
+            std::find_if(group, sided.end(), [&](const Candidate& c) { return c.said.number != group->said.number; });
         std::vector<Candidate> lefts;
         std::vector<Candidate> rights;
         for (; group != end; ++group)

@@ -63,8 +63,7 @@ std::vector<std::string> words_of(std::string_view name)
         const char c = name[i];
         const char last = i > 0 ? name[i - 1] : '\0';
         const char next = i + 1 < name.size() ? name[i + 1] : '\0';
-        const bool goes_on = (is_digit(c) && is_digit(last)) ||
-                             (is_lower(c) && is_letter(last)) ||
+        const bool goes_on = (is_digit(c) && is_digit(last)) || (is_lower(c) && is_letter(last)) ||
                              (is_upper(c) && is_upper(last) && !is_lower(next));
         if (goes_on)
             words.back() += lowered({&c, 1});
