@@ -41,7 +41,7 @@ std::vector<Point2> corners_by_opencv(OpenCvEyes eyes, GreyPicture& picture, con
                                        cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE |
                                            cv::CALIB_CB_FAST_CHECK))
             return {};
-        cv::cornerSubPix(grey, found, {11, 11}, {-1, -1}, {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 100, 1e-3});
+        cv::cornerSubPix(grey, found, {5, 5}, {-1, -1}, {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 100, 1e-3});
     }
     std::vector<Point2> corners;
     for (const cv::Point2f& corner : found)

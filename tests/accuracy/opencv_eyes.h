@@ -11,7 +11,7 @@ namespace dicot::test {
 
 enum class OpenCvEyes
 {
-    kPlain,  ///< findChessboardCorners, then cornerSubPix with 11 px to each side
+    kPlain,  ///< findChessboardCorners, then cornerSubPix in a window of 11 x 11 px
     kSectors ///< findChessboardCornersSB
 };
 

@@ -14,6 +14,7 @@ namespace {
 constexpr double kLineCounts = 0.5;   // of a line, from which on it counts as found
 constexpr double kBorderReach = 0.75; // of a step beyond the last line, where the next one would be
 constexpr double kFewShare = 0.25;    // of the board's corners: texture joins up that many
+constexpr double kWholeShare = 0.9;   // of a rectangle's crossings, from which on it is a board
 constexpr int kMinContrast = 12;      // grey levels between the 1st and the 99th percentile
 
 int count_in_line(const Lattice& lattice, bool column, int k)
@@ -120,7 +121,9 @@ std::string explain_miss(const Lattice& best, bool larger_board, const Board& bo
     }
     const int cols = turned ? high : wide;
     const int rows = turned ? wide : high;
-    if (larger_board || (cols >= board.cols && rows >= board.rows && cols * rows > board.corner_count()))
+    const bool another = (cols > board.cols || rows > board.rows) &&
+                         static_cast<double>(best.size()) >= kWholeShare * cols * rows; // texture leaves gaps
+    if (larger_board || another || (cols >= board.cols && rows >= board.rows && cols * rows > board.corner_count()))
         return text("the board has at least %d x %d inner corners, not %d x %d; check --corners",
                     std::max(cols, larger_board ? board.cols : cols), rows, board.cols, board.rows);
 
