@@ -101,7 +101,7 @@ private:
                                half_window(y_step, share(row, grid_.rows, y_step, x_step), scale_), max_move, edges);
     }
 
-    /// How far the corner lies from where its neighbours in a row or column put it, as a share of a square, at worst.
+    /// Whether the corner was not measured, or lies off the line of its neighbours in its row or column.
     bool doubtful(int col, int row) const
     {
         const std::optional<Point2>* const here = inside(col, row);
