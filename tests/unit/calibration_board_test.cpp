@@ -12,15 +12,16 @@ using test::Photo;
 using test::Scene;
 using test::turn_about;
 
-/// The distance of found corners from true ones, over the turns that leave the board's outline as it is.
-double worst_miss_px(const Scene& scene, const BoardSight& sight)
+/// How far each found corner is from its true place, the best first, for the turn of the board that fits best among
+/// those that leave its outline as it is.
+std::vector<double> misses_px(const Scene& scene, const BoardSight& sight)
 {
     const std::vector<Point2> truth = test::board_corners(scene.board, scene.place, scene.lens);
-    double best = 1e9;
+    std::vector<double> best;
     const int cols = scene.board.cols;
     const int rows = scene.board.rows;
     for (int turn = 0; turn < (cols == rows ? 4 : 2); ++turn) {
-        double worst = 0;
+        std::vector<double> misses;
         for (int row = 0; row < rows; ++row)
             for (int col = 0; col < cols; ++col) {
                 int c = col;
@@ -33,22 +34,33 @@ double worst_miss_px(const Scene& scene, const BoardSight& sight)
                 }
                 const Point2 p = sight.corners[static_cast<std::size_t>(row * cols + col)];
                 const Point2 q = truth[static_cast<std::size_t>(r * cols + c)];
-                worst = std::max(worst, std::hypot(p.x - q.x, p.y - q.y));
+                misses.push_back(std::hypot(p.x - q.x, p.y - q.y));
             }
-        best = std::min(best, worst);
+        std::ranges::sort(misses);
+        if (best.empty() || misses.back() < best.back())
+            best = misses;
     }
     return best;
 }
 
-void expect_found(const Scene& scene, double within_px, const char* what)
+/// What corners may be off by, in px.
+struct Limits
+{
+    double worst;
+    double nine_of_ten = worst;
+};
+
+void expect_found(const Scene& scene, Limits within_px, const char* what)
 {
     const Photo photo = test::photograph(scene);
     const BoardSight sight = find_board(photo.view(), scene.board);
     ASSERT_TRUE(sight.found) << what << ": " << sight.reason << " (seed " << scene.seed << ")";
     ASSERT_EQ(sight.corners.size(), static_cast<std::size_t>(scene.board.corner_count()));
-    const double miss = worst_miss_px(scene, sight);
-    std::printf("%s: worst %.3f px\n", what, miss);
-    EXPECT_LT(miss, within_px) << what << " (seed " << scene.seed << ")";
+    const std::vector<double> misses = misses_px(scene, sight);
+    const double nine_of_ten = misses[misses.size() * 9 / 10];
+    std::printf("%s: worst %.3f px, 90th percentile %.3f px\n", what, misses.back(), nine_of_ten);
+    EXPECT_LT(misses.back(), within_px.worst) << what << " (seed " << scene.seed << ")";
+    EXPECT_LT(nine_of_ten, within_px.nine_of_ten) << what << " (seed " << scene.seed << ")";
 }
 
 TEST(FindBoard, PutsCleanCornersWithin8HundredthsOfAPixel)
@@ -59,7 +71,7 @@ TEST(FindBoard, PutsCleanCornersWithin8HundredthsOfAPixel)
         for (const double roll : {-30.0, 4.0}) {
             scene.place = {turn_about(tilt, 0.6 * tilt, roll), {10, -5, 560}};
             scene.seed = seed++;
-            expect_found(scene, 0.08, "clean board");
+            expect_found(scene, {0.08}, "clean board");
         }
 }
 
@@ -67,11 +79,11 @@ TEST(FindBoard, SeesBoardsTiltedBy60Degrees)
 {
     Scene scene;
     scene.place = {turn_about(60, 0, 3), {0, 0, 520}};
-    expect_found(scene, 0.15, "tilted about x");
+    expect_found(scene, {0.15}, "tilted about x");
     scene.place = {turn_about(0, -60, 3), {0, 0, 520}};
-    expect_found(scene, 0.15, "tilted about y");
+    expect_found(scene, {0.15}, "tilted about y");
     scene.place = {turn_about(42, 42, 20), {0, 0, 480}};
-    expect_found(scene, 0.15, "tilted about both");
+    expect_found(scene, {0.15}, "tilted about both");
 }
 
 TEST(FindBoard, SeesBlurredBoards)
@@ -79,9 +91,9 @@ TEST(FindBoard, SeesBlurredBoards)
     Scene scene;
     scene.place = {turn_about(15, -10, 5), {0, 0, 500}};
     scene.blur_px = 3.5;
-    expect_found(scene, 0.3, "blur of 3.5 px");
+    expect_found(scene, {0.08}, "blur of 3.5 px");
     scene.blur_px = 6;
-    expect_found(scene, 0.8, "blur of 6 px");
+    expect_found(scene, {0.27}, "blur of 6 px");
 }
 
 TEST(FindBoard, SeesPartlyDarkBoards)
@@ -90,7 +102,7 @@ TEST(FindBoard, SeesPartlyDarkBoards)
     scene.place = {turn_about(10, 20, -5), {0, 0, 520}};
     scene.dark_part = 0.12;
     scene.noise = 1.5;
-    expect_found(scene, 1.2, "left third dark"); // the border of the shadow bends the corners that it passes
+    expect_found(scene, {0.45}, "left third dark"); // the border of the shadow bends the corners that it passes
 }
 
 TEST(FindBoard, SeesBoardsUnderTheEdgeOfAShadow)
@@ -99,7 +111,7 @@ TEST(FindBoard, SeesBoardsUnderTheEdgeOfAShadow)
     scene.shadow = 0.35;
     for (const double tilt : {-20.0, 0.0, 20.0}) {
         scene.place = {turn_about(10, tilt, -5), {0, 0, 520}};
-        expect_found(scene, 4.5, "hard shadow across the board"); // a corner right on its edge moves
+        expect_found(scene, {4.5, 0.77}, "hard shadow across the board"); // a corner right on its edge moves
     }
 }
 
@@ -109,7 +121,7 @@ TEST(FindBoard, SeesBoardsInDimLight)
     scene.place = {turn_about(10, 20, -5), {0, 0, 520}};
     scene.light = 0.08; // 15 grey levels between black and white
     scene.noise = 1.5;
-    expect_found(scene, 0.6, "a twelfth of the light");
+    expect_found(scene, {0.28}, "a twelfth of the light");
 }
 
 TEST(FindBoard, IsNotMovedByDirt)
@@ -117,7 +129,7 @@ TEST(FindBoard, IsNotMovedByDirt)
     Scene scene;
     scene.place = {turn_about(10, -20, 4), {0, 0, 500}};
     scene.spots = 400;
-    expect_found(scene, 0.8, "400 spots");
+    expect_found(scene, {0.7}, "400 spots");
 }
 
 TEST(FindBoard, SeesBoardsInGlare)
@@ -127,7 +139,7 @@ TEST(FindBoard, SeesBoardsInGlare)
     scene.glare = 205;
     scene.glare_at = {330, 220};
     scene.glare_px = 45;
-    expect_found(scene, 0.5, "bright spot");
+    expect_found(scene, {0.5}, "bright spot");
 }
 
 TEST(FindBoard, SeesNoisyAndPaleBoards)
@@ -135,20 +147,20 @@ TEST(FindBoard, SeesNoisyAndPaleBoards)
     Scene scene;
     scene.place = {turn_about(20, 5, -8), {0, 0, 540}};
     scene.noise = 12;
-    expect_found(scene, 0.6, "noise of 12 grey levels");
+    expect_found(scene, {0.16}, "noise of 12 grey levels");
     scene.noise = 2;
     scene.white = 120;
     scene.black = 90;
-    expect_found(scene, 0.6, "30 grey levels of contrast");
+    expect_found(scene, {0.19}, "30 grey levels of contrast");
 }
 
 TEST(FindBoard, SeesBoardsAtTheBorderAndFarAway)
 {
     Scene scene;
     scene.place = {turn_about(5, -5, 2), {-136, -80, 560}};
-    expect_found(scene, 0.12, "first corner near the picture's corner");
+    expect_found(scene, {0.12}, "first corner near the picture's corner");
     scene.place = {turn_about(10, 20, -3), {20, 10, 1600}};
-    expect_found(scene, 0.2, "squares of 11 px");
+    expect_found(scene, {0.2}, "squares of 11 px");
 }
 
 TEST(FindBoard, SeesBoardsInLargeAndSmallPictures)
@@ -159,12 +171,12 @@ TEST(FindBoard, SeesBoardsInLargeAndSmallPictures)
     scene.lens = {2400, 2400, 1299.5, 974.5, {}};
     scene.place = {turn_about(20, 15, 4), {0, 0, 560}};
     scene.blur_px = 2;
-    expect_found(scene, 0.2, "5 megapixels");
+    expect_found(scene, {0.2}, "5 megapixels");
     scene.width = 160;
     scene.height = 120;
     scene.lens = {150, 150, 79.5, 59.5, {}};
     scene.blur_px = 0.5;
-    expect_found(scene, 0.2, "160 x 120");
+    expect_found(scene, {0.2}, "160 x 120");
 }
 
 TEST(FindBoard, SeesSquareBoardsWithEvenAndOddSides)
@@ -173,7 +185,7 @@ TEST(FindBoard, SeesSquareBoardsWithEvenAndOddSides)
         Scene scene;
         scene.board = {side, side, 30};
         scene.place = {turn_about(15, -20, 6), {0, 0, 620}};
-        expect_found(scene, 0.12, "square board");
+        expect_found(scene, {0.12}, "square board");
     }
 }
 
@@ -182,7 +194,7 @@ TEST(FindBoard, FollowsBentEdgesOfAWideLens)
     Scene scene;
     scene.lens = {330, 330, 319.5, 239.5, {-0.28, 0.07, 0.001, -0.001, 0}};
     scene.place = {turn_about(12, -15, 3), {0, 0, 260}};
-    expect_found(scene, 0.2, "wide lens");
+    expect_found(scene, {0.2}, "wide lens");
 }
 
 TEST(FindBoard, StartsAtTheUpperLeftAndKeepsTheBoardsHand)
