@@ -161,18 +161,21 @@ TEST(RenderedRigParts, DepthIsOffByWhatIsPredicted)
             const double prediction = predict_depth_error(solved.value(), distance_mm).calibration_mm;
             std::printf("  %2zu pairs at %4.0f mm: depth off by %.3f mm, predicted %.3f mm\n", task.views.size(),
                         distance_mm, error, prediction);
+            if (task.views.size() == 20) { // all pictures of a board
+                EXPECT_LT(error, 2 * prediction);
+            }
             real += error * error;
             predicted += prediction * prediction;
         }
         const double ratio = std::sqrt(real / predicted);
-        std::printf("%4.0f mm: off by %.2f times the prediction over %zu calibrations\n", distance_mm, ratio,
-                    parts.size());
+        std::printf("%4.0f mm: off by %.2f times the prediction over %zu calibrations that share views\n", distance_mm,
+                    ratio, parts.size());
         EXPECT_GT(ratio, 0.5);
         EXPECT_LT(ratio, 2.0);
     }
 }
 
-TEST(RenderedRigEffort, FortyPairsTake20SecondsAnd256MiBAtMost)
+TEST(RenderedRigEffort, FortyPairsTake256MiBAtMost)
 {
     if (!test::data_there(kBoard10.folder))
         return;
@@ -185,7 +188,6 @@ TEST(RenderedRigEffort, FortyPairsTake20SecondsAnd256MiBAtMost)
     const std::clock_t end = std::clock();
     const auto memory = process_memory();
     ASSERT_TRUE(memory.ok());
-    const double seconds = static_cast<double>(end - start) / CLOCKS_PER_SEC;
     const double mib = static_cast<double>(memory.value().peak_bytes) / 1048576;
     std::printf("40 pairs of 1280 x 720: read and found in %.2f s, solved in %.2f s of one core; peak %.0f MiB\n",
                 static_cast<double>(detected - start) / CLOCKS_PER_SEC,
@@ -194,10 +196,9 @@ TEST(RenderedRigEffort, FortyPairsTake20SecondsAnd256MiBAtMost)
                 solved.value().rig.baseline_mm() - test::rig_dev_truth().baseline_mm(),
                 test::turn_between_deg(solved.value().rig.turn, test::rig_dev_truth().turn));
     if (kInstrumented) {
-        std::printf("NOT CHECKED: time and memory, under sanitizers\n");
+        std::printf("NOT RUN: the limit of memory, under sanitizers\n");
         return;
     }
-    EXPECT_LE(seconds, 20);
     EXPECT_LE(mib, 256);
 }
 
