@@ -5,6 +5,7 @@
 #include "dicot/calibration/solve.h"
 #include "dicot/picture/read_picture.h"
 
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
@@ -81,6 +82,29 @@ struct PairSet
 inline const PairSet kOpenCvPairs{"calibration-opencv", {9, 6, 30}, "", 1, 14, 10};
 inline const PairSet kBoard10{"rig-dev/calibration/board10x10_41mm", {9, 9, 41}, "_", 0, 19};
 inline const PairSet kBoard8{"rig-dev/calibration/board8x8_46mm", {7, 7, 46}, "_", 0, 19};
+
+struct PicturePair
+{
+    int number = 0;
+    GreyPicture left;
+    GreyPicture right;
+};
+
+/// All pairs of a set; one that cannot be read fails the test.
+inline std::vector<PicturePair> pictures_of(const PairSet& set)
+{
+    std::vector<PicturePair> pairs;
+    for (int number = set.first; number <= set.last; ++number) {
+        if (number == set.missing)
+            continue;
+        auto left = grey_picture(set.path(0, number)), right = grey_picture(set.path(1, number));
+        EXPECT_TRUE(left.ok()) << left.status().message();
+        EXPECT_TRUE(right.ok()) << right.status().message();
+        if (left.ok() && right.ok())
+            pairs.push_back({number, std::move(left).value(), std::move(right).value()});
+    }
+    return pairs;
+}
 
 /// Adds all pairs of a set; returns how many pictures showed no board, and prints why.
 inline int add_pairs(const PairSet& set, CalibrationTask& task)

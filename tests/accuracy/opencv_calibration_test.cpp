@@ -19,29 +19,8 @@ using calibration::CalibrationTask;
 using calibration::View;
 using test::OpenCvEyes;
 using test::PairSet;
+using test::PicturePair;
 using test::Solved;
-
-struct PicturePair
-{
-    int number = 0;
-    test::GreyPicture left;
-    test::GreyPicture right;
-};
-
-std::vector<PicturePair> pictures_of(const PairSet& set)
-{
-    std::vector<PicturePair> pairs;
-    for (int number = set.first; number <= set.last; ++number) {
-        if (number == set.missing)
-            continue;
-        auto left = test::grey_picture(set.path(0, number)), right = test::grey_picture(set.path(1, number));
-        EXPECT_TRUE(left.ok()) << left.status().message();
-        EXPECT_TRUE(right.ok()) << right.status().message();
-        if (left.ok() && right.ok())
-            pairs.push_back({number, std::move(left).value(), std::move(right).value()});
-    }
-    return pairs;
-}
 
 double core_seconds()
 {
@@ -130,7 +109,7 @@ Row seen_by_opencv(OpenCvEyes eyes, const char* who, std::vector<PicturePair>& p
 std::vector<Row> rows_of(const PairSet& set)
 {
     cv::setNumThreads(1);
-    std::vector<PicturePair> pairs = pictures_of(set);
+    std::vector<PicturePair> pairs = test::pictures_of(set);
     std::vector<Row> rows{seen_by_us(pairs, set.board)};
     rows.push_back(seen_by_opencv(OpenCvEyes::kPlain, "OpenCV " CV_VERSION, pairs, set.board, rows[0]));
     rows.push_back(seen_by_opencv(OpenCvEyes::kSectors, "OpenCV, SB corners", pairs, set.board, rows[0]));
