@@ -112,11 +112,13 @@ release() {
     count_ctest .build/release -j "$(nproc)" -LE accuracy || return
 }
 
-# Alone, and with the figures on the screen.
+# Alone, and with all that its tests print on the screen: what is left out are the words of CTest and GoogleTest.
 accuracy() {
     build release || return
     count_ctest .build/release -L accuracy -V || return
-    sed -nE 's/^[0-9]+: //p' "$ctest_log" | grep -aE '%|\||mean|error rates' | grep -av '^\[' | sed 's/^/    /'
+    sed -nE 's/^[0-9]+: //p' "$ctest_log" |
+        grep -avE '^(\[|Test command:|Working Directory:|Test timeout|Running main|Note: Google Test filter|NOT RUN|$)' |
+        sed 's/^/    /'
     return 0
 }
 
