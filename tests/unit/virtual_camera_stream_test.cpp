@@ -309,6 +309,19 @@ TEST(VirtualCamera, a_silent_stream_is_cured_by_a_restart)
     EXPECT_EQ(host.two_iso_frames().size(), 2u);
 }
 
+TEST(VirtualCamera, a_hang_is_cured_by_a_reset_alone)
+{
+    Host host(false);
+    host.plan("left 1 1 hang");
+    EXPECT_EQ(host.two_iso_frames().size(), 1u);
+    host.answers_.clear();
+    EXPECT_EQ(host.control(0x01, 11, 0, 1), 0);
+    EXPECT_EQ(host.two_iso_frames().size(), 0u);
+    host.answers_.clear();
+    EXPECT_EQ(host.control(0x00, 9, 1, 0), 0); // SET_CONFIGURATION 1
+    EXPECT_EQ(host.two_iso_frames().size(), 2u);
+}
+
 TEST(VirtualCamera, settings_that_do_not_fit_are_refused_as_a_host_controller_would)
 {
     Bus bus(6000);

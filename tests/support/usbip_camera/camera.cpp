@@ -41,6 +41,7 @@ void Camera::add_fault(PlannedFault fault)
 void Camera::power_on()
 {
     power_off();
+    stream_.reset();
     controls_ = Controls();
     negotiation_.reset();
     configuration_ = 0;
@@ -135,6 +136,7 @@ Reply Camera::standard(const Setup& setup, Microseconds now)
         return Reply::of({static_cast<std::uint8_t>(configuration_)});
     case USB_REQ_SET_CONFIGURATION:
         stop_streaming();
+        stream_.reset(); // the host sets the configuration again after it has reset the port
         configuration_ = setup.value & 255;
         return configuration_ <= 1 ? Reply{} : Reply::stall();
     case USB_REQ_GET_INTERFACE:
