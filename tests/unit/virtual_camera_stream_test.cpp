@@ -226,6 +226,21 @@ TEST(VirtualCamera, bulk_payloads_end_their_transfers)
     }
 }
 
+TEST(VirtualCamera, a_cleared_halt_ends_a_bulk_stream_that_has_begun)
+{
+    Host host(true);
+    ASSERT_EQ(host.start(0), 0);
+    const auto clear_halt = [&] { return host.control(0x02, 1, 0, 0x81); };
+    EXPECT_EQ(clear_halt(), 0);
+    host.submit_bulk(16384);
+    EXPECT_FALSE(host.camera_->serve(kStart).has_value());
+    EXPECT_EQ(host.answers_.size(), 1u);
+    EXPECT_EQ(clear_halt(), 0);
+    host.submit_bulk(16384);
+    EXPECT_FALSE(host.camera_->serve(kStart + kInterval).has_value());
+    EXPECT_EQ(host.answers_.size(), 1u);
+}
+
 // A payload of 512 bytes of a full 1024 fills the host's transfer: only an empty one tells that it is over.
 TEST(VirtualCamera, a_bulk_payload_that_fills_a_transfer_ends_with_an_empty_one)
 {

@@ -144,8 +144,8 @@ Reply Camera::standard(const Setup& setup, Microseconds now)
     case USB_REQ_SET_INTERFACE:
         return set_interface(setup.interface(), setup.value, now);
     case USB_REQ_CLEAR_FEATURE:
-        // A host that has done with a bulk endpoint clears its halt, and the camera stops.
-        if (model_.bulk && (setup.type & USB_RECIP_MASK) == USB_RECIP_ENDPOINT &&
+        // A host that has done with a bulk endpoint clears its halt, and the camera stops; some clear it at first, too.
+        if (model_.bulk && stream_.has_begun() && (setup.type & USB_RECIP_MASK) == USB_RECIP_ENDPOINT &&
             (setup.index & 15) == static_cast<int>(kVideoEndpoint))
             stop_streaming();
         return {};

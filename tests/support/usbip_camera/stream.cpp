@@ -167,7 +167,7 @@ std::optional<Microseconds> VideoStream::deadline() const
     if (waiting_.empty())
         return std::nullopt;
     if (!waiting_.front().packets.empty())
-        return running_ && !silent_ && wake_ > idle_due_ - kIdle ? std::min(wake_, idle_due_) : idle_due_;
+        return running_ && !silent_ ? std::min(wake_, idle_due_) : idle_due_;
     return running_ && !silent_ ? std::optional(wake_) : std::nullopt;
 }
 

@@ -40,6 +40,8 @@ public:
     /// `packet_bytes`: what the alternate setting allows a microframe; 0 for bulk. A stream that runs is stopped first.
     void start(const Agreement& agreement, int packet_bytes, Microseconds now);
     void stop();
+    /// Whether anything of the present stream has gone out.
+    bool has_begun() const { return running_ && (frame_ > 0 || sender_.has_value() || payload_open_); }
     /// Ends a hang, as a reset does.
     void reset() { hung_ = false; }
     std::uint64_t streams() const { return streams_; } ///< started so far
