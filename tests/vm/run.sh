@@ -57,7 +57,7 @@ grep -q '^dicot-vm: done$' "$log" || complain "the machine did not come to its e
 while read -r name; do
     grep -q -e "^dicot-vm: ok $name\$" -e "^dicot-vm: FAILED $name:" "$log" || complain "$name: did not report"
 done <"$image.expect"
-if grep -aqE 'Oops|BUG:|WARNING:|Unable to handle|Kernel panic|blocked for more than' "$log"; then
+if grep -aqE 'Oops|BUG:|WARNING: CPU|Unable to handle|Kernel panic|blocked for more than' "$log"; then
     complain "the kernel complained"
 fi
 if [ -n "$out" ] && grep -q '^dicot-vm: done$' "$log"; then
