@@ -257,7 +257,7 @@ void say(Climb& climb, int refused) noexcept
         if (climb.left.offers.empty() || climb.right.offers.empty())
             put("no plan: the %s camera offers no mode that can be used", climb.left.offers.empty() ? "left" : "right");
         else if (!climb.paired)
-            put("no plan: the cameras have no format and size in common; use two cameras of one model");
+            put("no plan: the cameras have no %s in common; use two cameras of one model", "format and size");
         else if (refused > 0)
             put("no plan: %s refused whatever fits, one camera at a time too; take other devices off it", place.text);
         else
