@@ -244,7 +244,7 @@ Status V4l2Camera::wait_until(std::int64_t deadline_us, bool& broken) noexcept
     const std::int64_t left_us = deadline_us - monotonic_us();
     if (left_us <= 0)
         return failure(Fault::kTryAgain, "camera %s: no frame came in time", node_.identity.port.text);
-    const timespec left{static_cast<std::time_t>(left_us / 1'000'000), static_cast<long>(left_us % 1'000'000 * 1000)};
+    const timespec left{static_cast<time_t>(left_us / 1'000'000), static_cast<long>(left_us % 1'000'000 * 1000)};
     pollfd one{descriptor_, POLLIN, 0};
     const int ready = ::ppoll(&one, 1, &left, nullptr);
     if (ready < 0 && errno != EINTR)
