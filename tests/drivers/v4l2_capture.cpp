@@ -272,7 +272,7 @@ private:
     {
         std::size_t unchanged = 0;
         for (std::size_t i = 0; i < held_.size(); ++i)
-            unchanged += sum(*held_[i]) == sums_[i] ? 1 : 0;
+            unchanged += sum(*held_[i]) == sums_[i] ? 1U : 0U;
         std::printf("released %zu unchanged %zu\n", held_.size(), unchanged);
         held_.clear();
         sums_.clear();
