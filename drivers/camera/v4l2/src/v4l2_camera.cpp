@@ -108,20 +108,25 @@ Result<std::int32_t> V4l2Camera::read_control(ControlId id) const noexcept
     return v4l2::from_kernel(id, control.value);
 }
 
-Result<std::int32_t> V4l2Camera::get(ControlId id)
+Status V4l2Camera::check_control(ControlId id) const noexcept
 {
-    const auto listed = [&](const ControlRange& range) { return range.id == id; };
     if (descriptor_ < 0)
-        return failed("reading a control", ENODEV);
-    if (std::ranges::none_of(controls(), listed))
+        return failed(name_of(id), ENODEV);
+    if (std::ranges::find(controls(), id, &ControlRange::id) == controls().end())
         return failure(Fault::kUnavailable, "camera %s: has no control '%s'; leave it out", node_.identity.port.text,
                        name_of(id));
+    return {};
+}
+
+Result<std::int32_t> V4l2Camera::get(ControlId id)
+{
+    TRY(check_control(id));
     return read_control(id);
 }
 
 Result<std::int32_t> V4l2Camera::set(ControlId id, std::int32_t value)
 {
-    TRY(get(id));
+    TRY(check_control(id));
     v4l2_ext_control control{};
     control.id = v4l2::kernel_id(id);
     control.value = v4l2::to_kernel(id, value);

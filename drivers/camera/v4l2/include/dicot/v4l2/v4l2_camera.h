@@ -117,6 +117,7 @@ private:
     Status wait_until(std::int64_t deadline_us, bool& gone) noexcept;
     Status reset_port() noexcept;
     Status failed(const char* what, int error) const noexcept;
+    Status check_control(ControlId id) const noexcept;
     Result<std::int32_t> read_control(ControlId id) const noexcept;
 
     int descriptor_ = -1;
