@@ -17,18 +17,18 @@ echo 1 >$nodrop
 
 # Runs the program, shows what it printed, and wants each line (a basic regular expression) to be there.
 wants() { # words of v4l2_capture in one, lines
-    rm -rf /tmp/taken
-    mkdir /tmp/taken
+    rm -rf taken
+    mkdir taken
     # shellcheck disable=SC2086 # the words
-    timeout 60 v4l2_capture $1 >/tmp/capture.log 2>&1
+    timeout 120 v4l2_capture $1 >capture.log 2>&1
     code=$?
-    cat /tmp/capture.log | tee -a /out/capture.log
+    tee -a /out/capture.log <capture.log
     [ $code -le 1 ] || return
     shift
     for line; do
         case $line in
-            no*) ! grep -q "${line#no }" /tmp/capture.log || { echo "is there: ${line#no }"; return 1; } ;;
-            *) grep -q "$line" /tmp/capture.log || { echo "is not there: $line"; return 1; } ;;
+            no*) ! grep -q "${line#no }" capture.log || { echo "is there: ${line#no }"; return 1; } ;;
+            *) grep -q "$line" capture.log || { echo "is not there: $line"; return 1; } ;;
         esac
     done
 }
@@ -37,16 +37,16 @@ wants() { # words of v4l2_capture in one, lines
 all_equal() { # frames of each camera, format, size, ending
     for camera in 0 1; do
         [ $camera = 0 ] && frames=/frames/left || frames=/frames/right
-        files=$(ls $frames/"$3"_*."$4" | wc -l)
-        [ "$(grep -c "^frame $camera .* whole" /tmp/capture.log)" = "$1" ] || { echo "camera $camera: not $1 frames"; return 1; }
-        grep "^frame $camera .* whole" /tmp/capture.log | while read -r _ _ k _ _ _ sequence _; do
-            cmp "/tmp/taken/$camera-$k.$2" "$frames/$3_$((sequence % files)).$4" || exit 1
+        files=$(ls "$frames/$3"_*."$4" | wc -l)
+        [ "$(grep -c "^frame $camera .* whole" capture.log)" = "$1" ] || { echo "camera $camera: not $1 frames"; return 1; }
+        grep "^frame $camera .* whole" capture.log | while read -r _ _ k _ _ _ sequence _; do
+            cmp "taken/$camera-$k.$2" "$frames/$3_$((sequence % files)).$4" || exit 1
         done || return
     done
 }
 
 both() { # format, size, ending, frames
-    wants "1-1,1-2 start $1 $2 5 take $4 /tmp/taken stop" "stopped 1-2" "no failed" && all_equal "$4" "$1" "$2" "$3"
+    wants "1-1,1-2 start $1 $2 5 take $4 ./taken stop" "stopped 1-2" "no failed" && all_equal "$4" "$1" "$2" "$3"
 }
 
 # A stream whose frame 2 goes wrong, and the lines that it is to leave.
@@ -64,7 +64,7 @@ judge list wants "list" "port 1-1 id 1209:0001 serial 'L1' name 'dicot virtual c
 judge iso.yuyv both YUYV 640x480 yuyv 5
 judge iso.mjpeg both MJPEG 640x480 jpg 5
 large() {
-    wants "1-1 start YUYV 1280x720 5 take 2 /tmp/taken" "no failed" && cmp /tmp/taken/0-0.YUYV /frames/left/1280x720_0.yuyv
+    wants "1-1 start YUYV 1280x720 5 take 2 ./taken" "no failed" && cmp taken/0-0.YUYV /frames/left/1280x720_0.yuyv
 }
 judge iso.large large
 judge buffers.all_lent wants "1-1 start YUYV 640x480 30 hold 5 release take 2" "failed 75 .* all its 4 buffers are lent" \
