@@ -16,6 +16,7 @@
 //
 // "failed ..." answers what did not work, with the fault's number, and the program goes on; exit 1 if there was one.
 #include "dicot/os/clock.h"
+#include "dicot/os/heap_gate.h"
 #include "dicot/v4l2/v4l2_camera.h"
 
 #include <cinttypes>
@@ -284,10 +285,12 @@ private:
     {
         Holdings before;
         int whole = 0;
+        std::uint64_t allocated = 0; // by operator new
         const std::int64_t from_us = monotonic_us();
         for (int i = 0; i < count; ++i) {
             for (int twice = 0; i == 10 && twice < 2; ++twice) // the first cycles, and looking, touch what stays
                 before = Holdings::now();
+            heap_gate::seal(heap_gate::Breach::kCount);
             for (const auto& camera : cameras_) {
                 if (!good(camera->start(mode_)))
                     return;
@@ -297,13 +300,16 @@ private:
                 }
                 good(camera->stop());
             }
+            allocated += heap_gate::breaches();
+            heap_gate::unseal();
         }
         const Holdings after = Holdings::now();
-        std::printf("cycles %d whole %d descriptors %ld %ld maps %ld %ld resident_kib %ld %ld grown %s in %" PRId64
-                    " ms\n",
-                    count, whole, before.descriptors, after.descriptors, before.maps, after.maps, before.resident_kib,
-                    after.resident_kib, after.resident_kib > before.resident_kib + kPagesOfLuckKib ? "yes" : "no",
-                    (monotonic_us() - from_us) / 1000);
+        std::printf(
+            "cycles %d whole %d descriptors %ld %ld maps %ld %ld resident_kib %ld %ld grown %s allocated %" PRIu64
+            " in %" PRId64 " ms\n",
+            count, whole, before.descriptors, after.descriptors, before.maps, after.maps, before.resident_kib,
+            after.resident_kib, after.resident_kib > before.resident_kib + kPagesOfLuckKib ? "yes" : "no", allocated,
+            (monotonic_us() - from_us) / 1000);
     }
 
     std::vector<std::string> words_;

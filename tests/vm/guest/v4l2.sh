@@ -136,7 +136,7 @@ back() {
 }
 judge shake.comes_back back
 judge cycles wants "1-1,1-2 start MJPEG 640x480 30 cycles 150" \
-    "cycles 150 whole 300 descriptors \([0-9]*\) \1 maps \([0-9]*\) \2 .* grown no"
+    "cycles 150 whole 300 descriptors \([0-9]*\) \1 maps \([0-9]*\) \2 .* grown no allocated 0 "
 finish
 
 echo 0 >$nodrop # the driver asks when a camera is plugged in
@@ -188,4 +188,4 @@ flagged() {
 }
 judge vivid.error_flag flagged
 judge vivid.cycles wants "$vivid start YUYV 640x360 50 cycles 700" \
-    "cycles 700 whole 700 descriptors \([0-9]*\) \1 maps \([0-9]*\) \2 .* grown no"
+    "cycles 700 whole 700 descriptors \([0-9]*\) \1 maps \([0-9]*\) \2 .* grown no allocated 0 "

@@ -37,7 +37,7 @@ public:
     ReplayCamera() noexcept = default;
     ReplayCamera(const ReplayCamera&) = delete;
     ReplayCamera& operator=(const ReplayCamera&) = delete;
-    ~ReplayCamera() = default;
+    ~ReplayCamera() override = default;
 
     /// `files`, and the paths in it, are borrowed as long as the camera lives; each is looked at now and read again
     /// when its frame is due. Takes the memory of kSlots frames. Fault::kNoInput, kBadData: as picture_size() says; no

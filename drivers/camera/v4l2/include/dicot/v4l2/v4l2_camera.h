@@ -59,7 +59,7 @@ public:
     V4l2Camera() noexcept = default;
     V4l2Camera(const V4l2Camera&) = delete;
     V4l2Camera& operator=(const V4l2Camera&) = delete;
-    ~V4l2Camera();
+    ~V4l2Camera() override;
 
     /// `where`: a USB port path ("1-1.2"), a serial number, the bus name of another device ("platform:vivid-000"), or a
     /// node ("/dev/video0"). Fault::kUnavailable: nothing there, no permission, not a camera, no known format.
