@@ -216,6 +216,14 @@ TEST(Bandwidth, AModeThatNoSettingCarriesIsNamed)
     EXPECT_THAT(plan.why, HasSubstr("no alternate setting carries YUYV 1280x720 at 30.0/s"));
 }
 
+TEST(Bandwidth, ASettingThatComesEverySecondMicroframeCarriesHalf)
+{
+    const std::vector<AlternateSetting> settings{{1, 1024, 2}, {2, 1280, 1}};
+    const std::vector<StreamOffer> offers{{mode(PixelFormat::kYuyv, 640, 480, k10), 0}};
+    const BusUser user{.bus = 1, .settings = settings, .offers = offers};
+    EXPECT_EQ(plan_bandwidth(user, user, 0).left.alternate, 2) << "780 bytes are needed, 512 come";
+}
+
 class Dice
 {
 public:

@@ -31,14 +31,24 @@ struct Sides
     const BusUser& right;
 };
 
-/// The smallest setting of at least `bytes`, or null; settings of one size are as good as each other.
-const AlternateSetting* smallest_with(std::span<const AlternateSetting> settings, std::uint32_t bytes) noexcept
+/// Bytes that a setting carries of every (micro)frame, evenly over the time.
+std::uint32_t evenly(const AlternateSetting& setting) noexcept
+{
+    return setting.bytes_per_interval / std::max(setting.intervals_apart, 1U);
+}
+
+/// The smallest setting that holds what the device asked for, or, if it was not asked, that carries the estimate; null
+/// if there is none.
+const AlternateSetting* usual_setting(const BusUser& user, const StreamOffer& offer, std::uint32_t estimate) noexcept
 {
     const AlternateSetting* best = nullptr;
-    for (const AlternateSetting& one : settings)
-        if (one.bytes_per_interval >= bytes && one.bytes_per_interval != 0 &&
+    for (const AlternateSetting& one : user.settings) {
+        const bool holds =
+            offer.payload_bytes != 0 ? one.bytes_per_interval >= offer.payload_bytes : evenly(one) >= estimate;
+        if (holds && one.bytes_per_interval != 0 &&
             (best == nullptr || one.bytes_per_interval < best->bytes_per_interval))
             best = &one;
+    }
     return best;
 }
 
@@ -46,12 +56,10 @@ const AlternateSetting* smallest_with(std::span<const AlternateSetting> settings
 const AlternateSetting* next_below(const BusUser& user, const AlternateSetting& one, std::uint32_t payload) noexcept
 {
     const AlternateSetting* best = nullptr;
-    for (const AlternateSetting& other : user.settings) {
-        const std::uint64_t needed = std::uint64_t{payload} * std::max(other.intervals_apart, 1U);
-        if (other.bytes_per_interval < one.bytes_per_interval && other.bytes_per_interval >= needed &&
+    for (const AlternateSetting& other : user.settings)
+        if (other.bytes_per_interval < one.bytes_per_interval && evenly(other) >= payload &&
             (best == nullptr || other.bytes_per_interval > best->bytes_per_interval))
             best = &other;
-    }
     return best;
 }
 
@@ -69,7 +77,7 @@ bool stream_for(const BusUser& user, const StreamOffer& offer, int smaller, Plan
     std::uint32_t bytes = user.bulk || offer.payload_bytes == 0 ? estimate : offer.payload_bytes;
     std::uint32_t apart = 1;
     if (!user.bulk && !user.settings.empty()) {
-        const AlternateSetting* taken = smallest_with(user.settings, bytes);
+        const AlternateSetting* taken = usual_setting(user, offer, estimate);
         for (int step = 0; step < smaller && taken != nullptr; ++step)
             taken = user.chooses_alternate ? next_below(user, *taken, estimate) : nullptr;
         if (taken == nullptr)
