@@ -226,6 +226,21 @@ TEST(VirtualCamera, bulk_payloads_end_their_transfers)
     }
 }
 
+TEST(VirtualCamera, a_cleared_halt_ends_a_bulk_stream_that_has_begun)
+{
+    Host host(true);
+    ASSERT_EQ(host.start(0), 0);
+    const auto clear_halt = [&] { return host.control(0x02, 1, 0, 0x81); };
+    EXPECT_EQ(clear_halt(), 0);
+    host.submit_bulk(16384);
+    EXPECT_FALSE(host.camera_->serve(kStart).has_value());
+    EXPECT_EQ(host.answers_.size(), 1u);
+    EXPECT_EQ(clear_halt(), 0);
+    host.submit_bulk(16384);
+    EXPECT_FALSE(host.camera_->serve(kStart + kInterval).has_value());
+    EXPECT_EQ(host.answers_.size(), 1u);
+}
+
 // A payload of 512 bytes of a full 1024 fills the host's transfer: only an empty one tells that it is over.
 TEST(VirtualCamera, a_bulk_payload_that_fills_a_transfer_ends_with_an_empty_one)
 {
@@ -306,6 +321,19 @@ TEST(VirtualCamera, a_silent_stream_is_cured_by_a_restart)
     EXPECT_EQ(host.two_iso_frames().size(), 1u);
     host.answers_.clear();
     EXPECT_EQ(host.control(0x01, 11, 0, 1), 0);
+    EXPECT_EQ(host.two_iso_frames().size(), 2u);
+}
+
+TEST(VirtualCamera, a_hang_is_cured_by_a_reset_alone)
+{
+    Host host(false);
+    host.plan("left 1 1 hang");
+    EXPECT_EQ(host.two_iso_frames().size(), 1u);
+    host.answers_.clear();
+    EXPECT_EQ(host.control(0x01, 11, 0, 1), 0);
+    EXPECT_EQ(host.two_iso_frames().size(), 0u);
+    host.answers_.clear();
+    EXPECT_EQ(host.control(0x00, 9, 1, 0), 0); // SET_CONFIGURATION 1
     EXPECT_EQ(host.two_iso_frames().size(), 2u);
 }
 

@@ -293,6 +293,10 @@ TEST(CameraOptions, refuse_what_is_no_camera)
         const Result<Options> options = read_options(line);
         EXPECT_EQ(options.status().fault(), Fault::kUsage) << camera;
     }
+    const char* const twins[] = {"--camera", "frames=f,name=a,port=0", "--camera", "frames=f,name=a,port=1"};
+    EXPECT_EQ(read_options(twins).status().fault(), Fault::kUsage);
+    const char* const same_port[] = {"--camera", "frames=f,port=1", "--camera", "frames=f,port=1"};
+    EXPECT_EQ(read_options(same_port).status().fault(), Fault::kUsage);
     EXPECT_EQ(read_options({}).status().fault(), Fault::kUsage);
 }
 

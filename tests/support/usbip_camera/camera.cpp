@@ -41,6 +41,7 @@ void Camera::add_fault(PlannedFault fault)
 void Camera::power_on()
 {
     power_off();
+    stream_.reset();
     controls_ = Controls();
     negotiation_.reset();
     configuration_ = 0;
@@ -135,6 +136,7 @@ Reply Camera::standard(const Setup& setup, Microseconds now)
         return Reply::of({static_cast<std::uint8_t>(configuration_)});
     case USB_REQ_SET_CONFIGURATION:
         stop_streaming();
+        stream_.reset(); // the host sets the configuration again after it has reset the port
         configuration_ = setup.value & 255;
         return configuration_ <= 1 ? Reply{} : Reply::stall();
     case USB_REQ_GET_INTERFACE:
@@ -142,8 +144,8 @@ Reply Camera::standard(const Setup& setup, Microseconds now)
     case USB_REQ_SET_INTERFACE:
         return set_interface(setup.interface(), setup.value, now);
     case USB_REQ_CLEAR_FEATURE:
-        // A host that has done with a bulk endpoint clears its halt, and the camera stops.
-        if (model_.bulk && (setup.type & USB_RECIP_MASK) == USB_RECIP_ENDPOINT &&
+        // A host that has done with a bulk endpoint clears its halt, and the camera stops; some clear it at first, too.
+        if (model_.bulk && stream_.has_begun() && (setup.type & USB_RECIP_MASK) == USB_RECIP_ENDPOINT &&
             (setup.index & 15) == static_cast<int>(kVideoEndpoint))
             stop_streaming();
         return {};

@@ -22,6 +22,7 @@ struct Word
 constexpr Word kWords[] = {
     {"unplug", FaultKind::kUnplug, Place::kFrame, "byte=0 back_ms=0"},
     {"silent", FaultKind::kSilent, Place::kFrame, ""},
+    {"hang", FaultKind::kHang, Place::kFrame, ""},
     {"late", FaultKind::kLate, Place::kFrame, "ms=1000"},
     {"zero_frame", FaultKind::kZeroFrame, Place::kFrame, ""},
     {"truncate", FaultKind::kTruncate, Place::kFrame, "byte=1000"},

@@ -17,6 +17,7 @@ enum class FaultKind
     // In a frame of a stream.
     kUnplug,
     kSilent,
+    kHang,
     kLate,
     kZeroFrame,
     kTruncate,

@@ -66,7 +66,8 @@ Status FrameFolder::add(const std::string& path, const std::string& name)
 {
     Series found;
     int end = 0;
-    if (std::sscanf(name.c_str(), "%5dx%5d_%n", &found.width, &found.height, &end) != 2 || end == 0)
+    if (std::sscanf(name.c_str(), "%5dx%5d_%n", &found.width, &found.height, &end) != 2 || end == 0 ||
+        found.width < 1 || found.height < 1)
         return {};
     if (name.ends_with(".jpg"))
         found.pixels = Pixels::kMjpeg;

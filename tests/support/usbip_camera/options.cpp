@@ -122,6 +122,17 @@ Result<CameraWish> camera_wish(std::string_view words, int number)
     return wish;
 }
 
+// Plans and ports tell cameras apart by these.
+Status distinct(const std::vector<CameraWish>& cameras)
+{
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (cameras[i].model.name == cameras[j].model.name || cameras[i].port == cameras[j].port)
+                return failure(Fault::kUsage, "--camera: '%s' and '%s' need a name and a port each",
+                               cameras[j].model.name.c_str(), cameras[i].model.name.c_str());
+    return {};
+}
+
 } // namespace
 
 Result<Options> read_options(std::span<const char* const> words)
@@ -150,6 +161,7 @@ Result<Options> read_options(std::span<const char* const> words)
     }
     if (options.cameras.empty())
         return failure(Fault::kUsage, "--camera frames=FOLDER is missing");
+    TRY(distinct(options.cameras));
     return options;
 }
 

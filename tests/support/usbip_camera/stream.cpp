@@ -22,7 +22,7 @@ void VideoStream::start(const Agreement& agreement, int packet_bytes, Microsecon
     agreement_ = agreement;
     packet_bytes_ = packet_bytes;
     running_ = true;
-    silent_ = false;
+    silent_ = hung_;
     ++streams_;
     frame_ = 0;
     due_ = now;
@@ -67,7 +67,8 @@ bool VideoStream::begin_frame(Microseconds now)
         around_.log("stream " + std::to_string(streams_) + " frame " + std::to_string(frame_) + ": " + fault.word);
         if (fault.kind == FaultKind::kUnplug)
             away_ = fault["back_ms"] * 1000;
-        silent_ = silent_ || fault.kind == FaultKind::kSilent;
+        hung_ = hung_ || fault.kind == FaultKind::kHang;
+        silent_ = silent_ || hung_ || fault.kind == FaultKind::kSilent;
     }
     if (silent_)
         return false;
@@ -166,7 +167,7 @@ std::optional<Microseconds> VideoStream::deadline() const
     if (waiting_.empty())
         return std::nullopt;
     if (!waiting_.front().packets.empty())
-        return running_ && !silent_ && wake_ > idle_due_ - kIdle ? std::min(wake_, idle_due_) : idle_due_;
+        return running_ && !silent_ ? std::min(wake_, idle_due_) : idle_due_;
     return running_ && !silent_ ? std::optional(wake_) : std::nullopt;
 }
 

@@ -40,7 +40,10 @@ public:
     /// `packet_bytes`: what the alternate setting allows a microframe; 0 for bulk. A stream that runs is stopped first.
     void start(const Agreement& agreement, int packet_bytes, Microseconds now);
     void stop();
-    bool running() const { return running_; }
+    /// Whether anything of the present stream has gone out.
+    bool has_begun() const { return running_ && (frame_ > 0 || sender_.has_value() || payload_open_); }
+    /// Ends a hang, as a reset does.
+    void reset() { hung_ = false; }
     std::uint64_t streams() const { return streams_; } ///< started so far
 
     void submit(Request request) { waiting_.push_back(std::move(request)); }
@@ -65,6 +68,7 @@ private:
     std::deque<Request> waiting_;
     bool running_ = false;
     bool silent_ = false;
+    bool hung_ = false;     ///< silent over the end of the stream
     Microseconds away_ = 0; ///< how long an unplugging of the present frame lasts
     bool frame_id_ = false;
     Agreement agreement_;

@@ -20,7 +20,7 @@ finish() {
     wait $camera_pid
     await 20 none_there || failed finish "the cameras did not disappear"
 }
-none_there() { ! ls /dev/video* >/dev/null 2>&1; }
+none_there() { ! node left && ! node right; }
 
 # Lines for the cameras; they have been obeyed when it returns.
 say() {

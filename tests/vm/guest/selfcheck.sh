@@ -5,7 +5,7 @@
 #expect control.set_and_read control.held_by_automatism control.out_of_range control.stall control.short_reply control.mute
 #expect bus.second_camera_gets_enospc bus.small_settings_fit fault.refuse_interface
 #expect fault.short fault.drop fault.bad_header fault.err fault.wrong_fid fault.truncate.yuyv fault.truncate.mjpeg
-#expect fault.zero_frame fault.no_eof fault.overlong fault.late fault.silent
+#expect fault.zero_frame fault.no_eof fault.overlong fault.late fault.silent fault.hang
 #expect fault.unplug fault.comes_back fault.cut_descriptors fault.product now.unplug now.plug
 # shellcheck source=tests/vm/guest/cameras.sh
 . /vm/cameras.sh
@@ -89,13 +89,17 @@ late_frame() {
 }
 judge fault.late late_frame
 
-silent() {
-    say "left next 2 silent" || return
-    ! timeout 4 v4l2-ctl -d "$(node left)" --stream-mmap --stream-count=4 --verbose >left.log 2>&1 || return
+gets() { # frames, of four that are asked for
+    timeout 3 v4l2-ctl -d "$(node left)" --stream-mmap --stream-count=4 --verbose >left.log 2>&1
     frames_of left >frames
-    [ "$(wc -l <frames)" = 2 ]
+    [ "$(wc -l <frames)" = "$1" ]
 }
-judge fault.silent silent
+judge fault.silent eval 'say "left next 2 silent" && gets 2 && gets 4'
+# The configuration is set anew, as after a reset of the port.
+configured_anew() {
+    echo 0 >/sys/bus/usb/devices/1-1/authorized && echo 1 >/sys/bus/usb/devices/1-1/authorized && await 15 node left
+}
+judge fault.hang eval 'say "left next 2 hang" && gets 2 && gets 0 && configured_anew && gets 4'
 
 # --- controls
 
