@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "distinct_files.h"
 #include "output_folder.h"
+#include "stored_maps.h"
 
 #include "dicot/os/clock.h"
 #include "dicot/os/output_file.h"
@@ -74,10 +75,12 @@ struct Written
 {
     bool rig = false;
     bool page = false;
-    Status outcome; ///< of the whole command
+    std::string maps; ///< the stored tables' path; empty when not written
+    Status outcome;   ///< of the whole command
 };
 
-/// The page first: should that fail, the rig file is still the former one. A refused run replaces nothing: its page is
+/// The page first: should that fail, the rig file is still the former one. Its tables last: without them, or with
+/// those of the former rig, they are built when they are needed. A refused run replaces nothing: its page is
 /// written only where none stands.
 Written write_outputs(const Words& words, const CalibrationRun& run, const Status& calibrated)
 {
@@ -92,6 +95,12 @@ Written write_outputs(const Words& words, const CalibrationRun& run, const Statu
     if (written.outcome.ok())
         written.outcome = write_rig_file(words.output.c_str(), run.rig);
     written.rig = written.outcome.ok();
+    if (written.rig) {
+        const std::string maps = maps_path(words.output);
+        written.outcome = store_tables(run.rig, kCrop, words.output, maps).status();
+        if (written.outcome.ok())
+            written.maps = maps;
+    }
     return written;
 }
 
@@ -106,6 +115,8 @@ Status tell(const Words& words, const CalibrationRun& run, int threads, const Wr
             json["report"] = words.report;
             json["report_written"] = written.page;
         }
+        if (!written.maps.empty())
+            json["tables"] = written.maps;
         json["refused"] = written.outcome.message();
         json["threads"] = threads;
         json["processor_s"] = static_cast<double>(process_cpu_us()) * 1e-6;
@@ -123,6 +134,8 @@ Status tell(const Words& words, const CalibrationRun& run, int threads, const Wr
             std::printf("%s: that of an earlier run stays\n", page_in(words.report).c_str());
         if (written.rig)
             std::printf("%s: written, %s\n", words.output.c_str(), run.rig.id);
+        if (!written.maps.empty())
+            std::printf("%s: its rectification tables\n", written.maps.c_str());
     }
     std::fflush(stdout); // before the sentence on stderr
     return {};

@@ -2,6 +2,7 @@
 #include "dicot/base/crc32.h"
 #include "dicot/rectification/rig_maps.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -103,7 +104,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::size_t left = length_at(bytes, head - 8), right = length_at(bytes, head - 4);
     sign(bytes, head, left);
     sign(bytes, head + left, right);
-    sign(bytes, 0, size);
+    if (left < 4 || right < 4 || left + right != size - head - 4)
+        return 0;
+    std::vector<std::byte> covered(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(head));
+    for (const std::size_t end : {head + left, head + left + right})
+        covered.insert(covered.end(), bytes.begin() + static_cast<std::ptrdiff_t>(end - 4),
+                       bytes.begin() + static_cast<std::ptrdiff_t>(end));
+    covered.resize(covered.size() + 4);
+    sign(covered, 0, covered.size());
+    std::ranges::copy(std::span{covered}.last(4), bytes.end() - 4);
     feed(bytes);
     return 0;
 }

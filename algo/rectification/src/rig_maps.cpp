@@ -35,6 +35,24 @@ void write_rig(ByteWriter& out, const StereoRig& rig)
         out.real(value);
 }
 
+/// The CRC-32 of the head and of both tables' own checksums. Not of all bytes: the CRC of something that ends with its
+/// own CRC says nothing about it.
+std::uint32_t checksum_of(std::span<const std::byte> head, std::uint32_t left, std::uint32_t right)
+{
+    std::array<std::byte, kHeadBytes + 2 * kChecksumBytes> bytes{};
+    std::ranges::copy(head.first(kHeadBytes), bytes.begin());
+    ByteWriter sums(std::span{bytes}.subspan(kHeadBytes));
+    sums.number(left, kChecksumBytes);
+    sums.number(right, kChecksumBytes);
+    return crc32(bytes);
+}
+
+/// What stands in the last bytes.
+std::uint32_t last_number(std::span<const std::byte> bytes)
+{
+    return ByteReader(bytes.last(kChecksumBytes)).number(kChecksumBytes);
+}
+
 } // namespace
 
 std::size_t most_map_bytes(int width, int height)
@@ -59,7 +77,7 @@ MapChecksums write_maps(const RigMaps& maps, const StereoRig& rig, double keep, 
     checksums.left = maps.left.write(into.subspan(kHeadBytes, left_bytes));
     checksums.right = maps.right.write(into.subspan(kHeadBytes + left_bytes, right_bytes));
     const std::size_t body = map_bytes(maps) - kChecksumBytes;
-    checksums.whole = crc32(into.first(body));
+    checksums.whole = checksum_of(into, checksums.left, checksums.right);
     ByteWriter(into.subspan(body)).number(checksums.whole, kChecksumBytes);
     return checksums;
 }
@@ -71,29 +89,31 @@ Result<RigMaps> read_maps(std::span<const std::byte> bytes, const StereoRig& rig
     if (bytes.size() < kHeadBytes + kChecksumBytes || std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0)
         return refused("no rectification tables of this kind");
     const std::span<const std::byte> body = bytes.first(bytes.size() - kChecksumBytes);
-    if (ByteReader(bytes.subspan(body.size())).number(kChecksumBytes) != crc32(body))
+    ByteReader lengths(body.subspan(kHeadBytes - 2 * 4));
+    const std::size_t left_bytes = lengths.number(4), right_bytes = lengths.number(4);
+    if (left_bytes < kChecksumBytes || right_bytes < kChecksumBytes ||
+        left_bytes + right_bytes != body.size() - kHeadBytes)
+        return refused("cut short, or with more behind its end");
+    const auto left = body.subspan(kHeadBytes, left_bytes), right = body.last(right_bytes);
+    if (last_number(bytes) != checksum_of(body, last_number(left), last_number(right)))
         return refused("damaged (its checksum is wrong)");
     std::array<std::byte, kRigBytes> own{};
     ByteWriter out(own);
     write_rig(out, rig);
     if (!std::ranges::equal(body.first(kRigBytes), own))
         return refused("made for another calibration");
-    ByteReader head(body.subspan(kRigBytes));
-    const double made_for = head.real();
-    const std::size_t left_bytes = head.number(4), right_bytes = head.number(4);
-    if (left_bytes + right_bytes != body.size() - kHeadBytes)
-        return refused("its parts are not as long as it says");
+    const double made_for = ByteReader(body.subspan(kRigBytes)).real();
     if (made_for != keep)
         return failure(Fault::kConfig, "%s: made for --keep %g", name, made_for);
-    const auto table_of = [&](std::size_t at, std::size_t count) -> Result<RemapTable> {
-        RemapTable table = TRY(RemapTable::read(body.subspan(at, count), arena, name));
+    const auto table_of = [&](std::span<const std::byte> from) -> Result<RemapTable> {
+        RemapTable table = TRY(RemapTable::read(from, arena, name));
         if (table.width() != rig.width || table.height() != rig.height)
             return refused("a table for pictures of another size");
         return table;
     };
     RigMaps maps;
-    maps.left = TRY(table_of(kHeadBytes, left_bytes));
-    maps.right = TRY(table_of(kHeadBytes + left_bytes, right_bytes));
+    maps.left = TRY(table_of(left));
+    maps.right = TRY(table_of(right));
     return maps;
 }
 

@@ -1,6 +1,6 @@
 #include "seen_picture.h"
 
-#include "../process_bench.h"
+#include "../take_picture.h"
 
 #include "dicot/calibration/grey.h"
 #include "dicot/os/memory_block.h"

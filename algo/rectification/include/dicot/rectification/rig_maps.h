@@ -17,7 +17,7 @@ struct RigMaps
     RemapTable left, right;
 };
 
-/// CRC-32 of each table and of the whole.
+/// CRC-32 of each table, and of what they were made for together with both.
 struct MapChecksums
 {
     std::uint32_t left = 0, right = 0, whole = 0;
