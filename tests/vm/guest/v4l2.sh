@@ -4,7 +4,7 @@
 #expect fault.zero_frame fault.no_eof fault.overlong fault.silent fault.refuse_interface fault.kept_to_itself
 #expect fault.product bus.full
 #expect control.set_and_read control.held_by_automatism control.stall control.mute control.unknown
-#expect shake.restart shake.reopen shake.port shake.gone shake.comes_back
+#expect shake.restart shake.reopen shake.port shake.port_cures shake.gone shake.comes_back
 #expect vivid.whole vivid.streamon vivid.qbuf vivid.reqbufs vivid.dropped vivid.error_flag vivid.cycles cycles
 . /vm/cameras.sh
 
@@ -121,6 +121,13 @@ judge shake.restart wants "1-1 start YUYV 640x480 30 take 2 shake restart take 2
     "no failed"
 judge shake.reopen wants "1-1 start MJPEG 640x480 30 take 2 shake reopen take 2" "shaken reopen" "no failed"
 judge shake.port wants "1-1 start YUYV 640x480 30 take 2 shake port take 2 controls" "shaken port" "no failed"
+hang() {
+    say "left next 2 hang" || return
+    wants "1-1 start YUYV 640x480 15 wait 700 take 3 shake restart take 1 shake port wait 3000 take 3" \
+        "failed 75 camera 1-1: no frame came in time" "shaken port" "frame 0 2 whole"
+    [ "$(grep -c "^failed 75" capture.log)" = 2 ]
+}
+judge shake.port_cures hang
 gone() {
     say "left next 2 unplug byte=5000 back_ms=60000" || return
     wants "1-1 start YUYV 640x480 15 take 3 stop shake reopen get brightness" "frame 0 1 whole" "failed 69 camera 1-1:" \
