@@ -180,9 +180,11 @@ cross() {
     count_lines sh tests/system/cross_test.sh .build/release/platform/app/dicot "$@" || return
 }
 
-# The cameras of tests/support before the kernel's own driver. A machine that does not boot is a failure.
+# The cameras of tests/support before the kernel's own driver, then dicot's drivers. A machine that does not boot is a
+# failure.
 vm() {
     count_lines sh tests/vm/selfcheck.sh || return
+    count_lines sh tests/vm/v4l2.sh || return
 }
 
 purposes="build quickstart test"

@@ -80,7 +80,7 @@ door 'png\.h' platform/picture
 door 'j(peglib|error)\.h' platform/picture
 door 'CLI/' platform/app
 door 'nlohmann/' platform/app
-door 'linux/videodev2\.h' drivers
+door 'linux/videodev2\.h' drivers/camera/v4l2
 door 'libusb' drivers
 door 'opencv2/' tests
 
