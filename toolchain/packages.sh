@@ -5,7 +5,7 @@
 dicot_packages() {
     case $1 in
         build) echo "g++ cmake ninja-build pkg-config libpng-dev libjpeg62-turbo-dev libyaml-dev libcli11-dev
-            nlohmann-json3-dev libeigen3-dev libdraco-dev" ;;
+            nlohmann-json3-dev libeigen3-dev libdraco-dev libusb-1.0-0-dev" ;;
         quickstart) echo "libjpeg-turbo-progs" ;; # djpeg scales the pair
         test) echo "libgtest-dev libgmock-dev draco pcl-tools python3" ;; # draco, pcl-tools: readers of others for our files
         clang) echo "clang-14 libclang-rt-14-dev" ;;

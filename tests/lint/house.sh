@@ -80,7 +80,7 @@ door 'j(peglib|error)\.h' platform/picture
 door 'CLI/' platform/app
 door 'nlohmann/' platform/app
 door 'linux/videodev2\.h' drivers
-door 'libusb' drivers
+door 'libusb' '(drivers/camera/uvc|drivers/usb)'
 
 judge "no exception of our own: throw stands at the heap gate alone" \
     "$(places '^[^/]*\bthrow\b' '^(platform|algo|storage|drivers)/.*\.(h|cpp)$' '^platform/os/gate/')"
