@@ -26,7 +26,7 @@ double fold_radius(const Lens& lens)
 
 LensMap::LensMap(const Lens& lens, const Turn& rectifying, double focal_px, double cx_px, double cy_px)
     : lens_(lens), camera_from_rectified_{rectifying[0], rectifying[3], rectifying[6], rectifying[1], rectifying[4],
-                                              rectifying[7], rectifying[2], rectifying[5], rectifying[8]},
+                                          rectifying[7], rectifying[2], rectifying[5], rectifying[8]},
       focal_px_(focal_px), cx_px_(cx_px), cy_px_(cy_px), fold_radius_(fold_radius(lens))
 {
 }

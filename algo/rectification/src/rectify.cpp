@@ -190,8 +190,7 @@ Result<Rectification> rectify(const StereoRig& rig, double keep, const char* nam
     const double w = rig.width, h = rig.height;
     for (const Lens* lens : {&rig.left, &rig.right}) {
         const double k1 = lens->k[0];
-        const double own =
-            k1 < 0 ? lens->fy * (1 + k1 * (w * w + h * h) / (4 * lens->fy * lens->fy)) : lens->fy;
+        const double own = k1 < 0 ? lens->fy * (1 + k1 * (w * w + h * h) / (4 * lens->fy * lens->fy)) : lens->fy;
         focal = std::min(focal, own);
     }
     if (!(focal > 1))

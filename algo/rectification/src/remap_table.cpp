@@ -109,8 +109,8 @@ void RemapTable::fill_corners(const LensMap& map)
             const double x = column * cell;
             const double y = row * cell;
             const Point2 at = map.source_of(x, y);
-            const Point2 around[] = {map.source_of(x - half, y), map.source_of(x + half, y),
-                                       map.source_of(x, y - half), map.source_of(x, y + half)};
+            const Point2 around[] = {map.source_of(x - half, y), map.source_of(x + half, y), map.source_of(x, y - half),
+                                     map.source_of(x, y + half)};
             const double bend_x = ((around[0].x + around[1].x) + (around[2].x + around[3].x)) - 4 * at.x;
             const double bend_y = ((around[0].y + around[1].y) + (around[2].y + around[3].y)) - 4 * at.y;
             corners_[i++] = {corner_of(at.x - bend_x / 4), corner_of(at.y - bend_y / 4)};
