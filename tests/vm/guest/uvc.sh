@@ -1,0 +1,151 @@
+# The driver over libusb before virtual cameras: runs in the virtual machine. Frames are compared with the files that the
+# cameras serve.
+#expect uvc.list uvc.iso.yuyv uvc.iso.mjpeg uvc.iso.large uvc.driver_given_back uvc.by_serial uvc.no_such_camera
+#expect uvc.controls uvc.bulk.yuyv uvc.bulk.mjpeg uvc.bulk.payload_of_several_transfers uvc.iso.smallest_setting
+#expect uvc.fault.short uvc.fault.drop uvc.fault.bad_header uvc.fault.err uvc.fault.wrong_fid uvc.fault.truncate.yuyv
+#expect uvc.fault.truncate.mjpeg uvc.fault.zero_frame uvc.fault.no_eof uvc.fault.overlong uvc.fault.silent
+#expect uvc.fault.bulk.short uvc.fault.bulk.drop uvc.fault.refuse_interface uvc.fault.unplug uvc.fault.cut_descriptors
+#expect uvc.fault.product uvc.bus.second_camera_gets_enospc uvc.bus.small_settings_fit uvc.cycles
+. /vm/cameras.sh
+
+yuyv=614400
+
+# Every frame of the log is whole and is byte for byte the file that its number names.
+all_equal() { # port, camera, size, format, ending, frames
+    files=$(ls "/frames/$2/$3"_*."$5" | wc -l)
+    seen=0
+    while read -r port number verdict _ _ _ sequence _; do
+        [ "$port" = "$1" ] && [ "$number" != streams ] || continue
+        [ "$verdict" = whole ] || return 1
+        cmp "/tmp/shots/$1-$number.$4" "/frames/$2/$3_$((${sequence%,} % files)).$5" || return
+        seen=$((seen + 1))
+    done </tmp/shots.log
+    [ $seen = "$6" ]
+}
+shoot() { # format, width, height, fps, frames, cameras ...
+    rm -rf /tmp/shots
+    timeout 60 uvc_capture capture /tmp/shots "$@" >/tmp/shots.log 2>&1
+    code=$?
+    cat /tmp/shots.log
+    return $code
+}
+both() { # format, ending
+    shoot "$1" 640 480 5 5 1-1 1-2 && all_equal 1-1 left 640x480 "$1" "$2" 5 && all_equal 1-2 right 640x480 "$1" "$2" 5
+}
+# A stream whose frame 2 goes wrong, and words that its lines are to begin with behind the port.
+spoiled() { # fault, format, lines
+    say "left next 2 $1" || return
+    shoot "$2" 640 480 15 5 1-1
+    shift 2
+    for line; do
+        grep -q "^1-1 $line" /tmp/shots.log || { echo "is not there: $line"; return 1; }
+    done
+}
+says() { # sentence, command ...
+    sentence=$1
+    shift
+    "$@" >/tmp/said.log 2>&1
+    cat /tmp/said.log
+    grep -q "$sentence" /tmp/said.log
+}
+
+# --- isochronous
+
+start ,fps=30/15/5
+judge uvc.list eval 'uvc_capture list >/tmp/said.log && cat /tmp/said.log && grep "^1-1 .*L1" /tmp/said.log &&
+    grep "^1-2 .*R1" /tmp/said.log'
+judge uvc.iso.yuyv both YUYV yuyv
+grep '^cpu' /tmp/shots.log
+judge uvc.iso.mjpeg both MJPEG jpg
+large() { shoot YUYV 1280 720 5 3 1-1 && all_equal 1-1 left 1280x720 YUYV yuyv 3; }
+judge uvc.iso.large large
+judge uvc.driver_given_back await 10 both_there
+serial() { shoot YUYV 640 480 5 1 R1 && cmp /tmp/shots/R1-0.YUYV /frames/right/640x480_0.yuyv; }
+judge uvc.by_serial serial
+judge uvc.no_such_camera says "no camera at USB port or with serial number '9-9'" uvc_capture controls 9-9
+controls() {
+    uvc_capture controls 1-1 >/tmp/said.log 2>&1
+    cat /tmp/said.log
+    grep -q '^brightness -64..64 step 1 usual 0 now 0 set 0 $' /tmp/said.log &&
+        grep -q '^exposure_auto .* usual 8 now 8 set 8 $' /tmp/said.log && grep -q '^exposure_time .*wrong state' /tmp/said.log
+}
+judge uvc.controls controls
+
+judge uvc.fault.short spoiled "short packet=3 bytes=100" YUYV "1 whole" "2 torn .* 614300 of $yuyv bytes" "3 whole"
+judge uvc.fault.drop spoiled "drop packet=3" YUYV "1 whole" "2 torn $((yuyv - 1588)) bytes.*lost packet" "3 whole"
+judge uvc.fault.bad_header spoiled "bad_header packet=3 length=0" YUYV "2 torn .*bad payload header" "3 whole"
+judge uvc.fault.err spoiled "err packet=3" YUYV "1 whole" "2 torn .*error bit" "3 whole"
+judge uvc.fault.wrong_fid spoiled "wrong_fid packet=3" YUYV "1 whole" "2 torn .* $((3 * 1588)) of $yuyv bytes" "4 torn"
+judge uvc.fault.truncate.yuyv spoiled "truncate byte=5000" YUYV "1 whole" "2 torn .* 5000 of $yuyv bytes" "3 whole"
+judge uvc.fault.truncate.mjpeg spoiled "truncate byte=5000" MJPEG "1 whole" "2 torn .*no JPEG end marker" "3 whole"
+judge uvc.fault.zero_frame spoiled zero_frame YUYV "1 whole" "2 torn .*no bytes" "3 whole"
+judge uvc.fault.no_eof spoiled no_eof YUYV "2 whole" "3 whole" "4 whole"
+judge uvc.fault.overlong spoiled overlong YUYV "1 whole" "2 torn .* of $yuyv bytes" "3 whole"
+silent() {
+    say "left next 2 silent" && shoot YUYV 640 480 15 3 1-1
+    grep 'delivered no frame in time' /tmp/shots.log
+}
+judge uvc.fault.silent silent
+refused() {
+    say "left control refuse_interface errno=32" && ! shoot YUYV 640 480 15 1 1-1 && shoot YUYV 640 480 15 1 1-1
+}
+judge uvc.fault.refuse_interface refused
+unplugged() {
+    say "left next 2 unplug byte=5000 back_ms=700" || return
+    ! shoot YUYV 640 480 15 5 1-1 && grep '^1-1 2 cancelled .*the camera went away' /tmp/shots.log &&
+        grep 'is gone' /tmp/shots.log && await 10 node left && shoot YUYV 640 480 15 1 1-1
+}
+judge uvc.fault.unplug unplugged
+gone() { [ ! -e /sys/bus/usb/devices/1-1 ]; }
+cut() {
+    say "left now unplug" && await 5 gone && say "left plug cut_descriptors byte=100" "left now plug" &&
+        await 5 test -f /sys/bus/usb/devices/1-1/product
+    says 'USB port 1-1 cannot be used' uvc_capture controls 1-1
+}
+judge uvc.fault.cut_descriptors cut
+product() {
+    say "left now unplug" && await 5 gone && say "left now forget" 'left plug product text=\x1b[31mred' "left now plug" &&
+        await 10 both_there && says "'?.31mred'" uvc_capture list
+}
+judge uvc.fault.product product
+say "left now forget"
+cycles() {
+    uvc_capture cycles YUYV 640 480 15 201 1-2 >/tmp/said.log 2>&1
+    code=$?
+    cat /tmp/said.log
+    [ $code = 0 ] || return
+    [ "$(sed -n 's/.*, \(resident.*\)/\1/p; s/^after.*: \(resident.*\)/\1/p' /tmp/said.log | tail -n 3 | sort -u | wc -l)" = 1 ]
+}
+judge uvc.cycles cycles
+cat /tmp/said.log
+finish
+
+# --- bulk
+
+start ,fps=30/15/5,transfer=bulk
+judge uvc.bulk.yuyv both YUYV yuyv
+judge uvc.bulk.mjpeg both MJPEG jpg
+judge uvc.fault.bulk.short spoiled "short packet=3 bytes=100" YUYV "2 torn .* 614300 of $yuyv bytes" "3 whole"
+judge uvc.fault.bulk.drop spoiled "drop packet=3" YUYV "2 torn .* $((yuyv - 16372)) of $yuyv bytes" "3 whole"
+finish
+start ,transfer=bulk,payload=40000
+several() { shoot YUYV 640 480 5 2 1-1 && all_equal 1-1 left 640x480 YUYV yuyv 2; }
+judge uvc.bulk.payload_of_several_transfers several
+finish
+
+# --- two cameras on one bus
+
+start ,payload=most --bus-bytes 6000
+judge uvc.bus.second_camera_gets_enospc says 'the bus of USB port 1-2 has no bandwidth left' \
+    uvc_capture capture /tmp/shots YUYV 640 480 5 1 1-1 1-2
+finish
+start ,fps=5,alternates=192/1024 --bus-bytes 2048
+small() {
+    shoot YUYV 640 480 5 2 1-1 1-2 && all_equal 1-1 left 640x480 YUYV yuyv 2 && all_equal 1-2 right 640x480 YUYV yuyv 2
+}
+judge uvc.bus.small_settings_fit small
+finish
+start ,alternates=192
+smallest() { shoot MJPEG 640 480 5 2 1-2 && all_equal 1-2 right 640x480 MJPEG jpg 2; }
+judge uvc.iso.smallest_setting smallest
+finish
