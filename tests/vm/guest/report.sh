@@ -1,7 +1,10 @@
 # How a script of the virtual machine reports. To be sourced.
 
+# /out/times tells when each test was done, in seconds since the machine's start.
 ok() { # name
     echo "dicot-vm: ok $1"
+    read -r up _ </proc/uptime
+    echo "$up $1" >>/out/times
 }
 
 failed() { # name, why
@@ -22,10 +25,12 @@ judge() { # name, command ...
 
 # Waits until a command succeeds; at most so many seconds.
 await() { # seconds, command ...
-    until_s=$(($(cut -d. -f1 /proc/uptime) + $1))
+    read -r up _ </proc/uptime
+    until_s=$((${up%.*} + $1))
     shift
     until "$@" >/dev/null 2>&1; do
-        [ "$(cut -d. -f1 /proc/uptime)" -lt "$until_s" ] || return 1
+        read -r up _ </proc/uptime
+        [ "${up%.*}" -lt "$until_s" ] || return 1
         usleep 100000
     done
 }
