@@ -3,7 +3,9 @@
 //   uvc_capture list
 //   uvc_capture capture OUT_FOLDER FORMAT WIDTH HEIGHT FPS FRAMES CAMERA [CAMERA]
 //   uvc_capture cycles FORMAT WIDTH HEIGHT FPS CYCLES CAMERA
-//   uvc_capture controls CAMERA
+//   uvc_capture hold OUT_FOLDER FORMAT WIDTH HEIGHT FPS FRAMES CAMERA      keeps them all until ten more and a stop
+//   went by uvc_capture ladder FORMAT WIDTH HEIGHT FPS FRAMES CAMERA               shakes a camera that stops
+//   delivering uvc_capture controls CAMERA
 //
 // Two cameras stream at once. OUT_FOLDER/<camera>-<number>.<yuyv|mjpg|nv12|grey> holds the bytes; one line on standard
 // output for each frame: camera, number, verdict, bytes, sequence, lost, start, flaw. Exit code 0 when all frames came.
@@ -141,11 +143,8 @@ int capture(const std::string& out, const CameraMode& wanted, int fps, int frame
                 continue;
             }
             const Frame& frame = *lease.value();
-            std::string kind = name_of(frame.mode.format);
-            write_frame(out + "/" + eye.name + "-" + std::to_string(i) + "." + kind, frame);
-            std::printf("%s %d %s %zu bytes, sequence %u, lost %u, start %lld%s%s\n", eye.name.c_str(), i,
-                        name_of(frame.verdict), frame.bytes.size(), frame.sequence, frame.lost_before,
-                        static_cast<long long>(frame.start_us), *frame.flaw != '\0' ? ", " : "", frame.flaw);
+            write_frame(out + "/" + eye.name + "-" + std::to_string(i) + "." + name_of(frame.mode.format), frame);
+            print_frame(eye.name, i, frame);
         }
     }
     std::printf("cpu %lld us for %d frames of each camera\n", static_cast<long long>(process_cpu_us() - cpu_before),
@@ -156,6 +155,81 @@ int capture(const std::string& out, const CameraMode& wanted, int fps, int frame
             worst = complain(stopped);
     }
     return worst;
+}
+
+void print_frame(const std::string& name, int number, const Frame& frame)
+{
+    std::printf("%s %d %s %zu bytes, sequence %u, lost %u, start %lld%s%s\n", name.c_str(), number,
+                name_of(frame.verdict), frame.bytes.size(), frame.sequence, frame.lost_before,
+                static_cast<long long>(frame.start_us), *frame.flaw != '\0' ? ", " : "", frame.flaw);
+}
+
+/// Opens the camera and starts the mode of this size whose rate is nearest.
+Result<std::unique_ptr<UvcCamera>> streaming(const std::string& name, const CameraMode& wanted, int fps)
+{
+    auto camera = TRY(UvcCamera::open(name));
+    const auto mode = mode_of(*camera, wanted.format, wanted.width, wanted.height, fps);
+    if (!mode)
+        return failure(Fault::kUnavailable, "%s has no such mode", name.c_str());
+    TRY(camera->start(*mode));
+    return camera;
+}
+
+int hold(const std::string& out, const CameraMode& wanted, int fps, int frames, const std::string& name)
+{
+    std::filesystem::create_directories(out);
+    const Result<std::unique_ptr<UvcCamera>> opened = streaming(name, wanted, fps);
+    if (!opened.ok())
+        return complain(opened.status());
+    UvcCamera& camera = *opened.value();
+    std::vector<FrameLease> held;
+    for (int i = 0; i < frames + 10; ++i) {
+        Result<FrameLease> lease = camera.next(monotonic_us() + kFrameUs);
+        if (!lease.ok())
+            return complain(lease.status());
+        if (i < frames)
+            held.push_back(std::move(lease).value());
+    }
+    const Status stopped = camera.stop();
+    if (!stopped.ok())
+        return complain(stopped);
+    for (int i = 0; i < frames; ++i) {
+        const Frame& frame = *held[static_cast<std::size_t>(i)];
+        write_frame(out + "/" + name + "-" + std::to_string(i) + "." + name_of(frame.mode.format), frame);
+        print_frame(name, i, frame);
+    }
+    return 0;
+}
+
+int ladder(const CameraMode& wanted, int fps, int frames, const std::string& name)
+{
+    const Result<std::unique_ptr<UvcCamera>> opened = streaming(name, wanted, fps);
+    if (!opened.ok())
+        return complain(opened.status());
+    UvcCamera& camera = *opened.value();
+    int step = 0;
+    for (int i = 0; i < frames;) {
+        const Result<FrameLease> lease = camera.next(monotonic_us() + kFrameUs / 5);
+        if (lease.ok()) {
+            print_frame(name, i++, *lease.value());
+            step = 0;
+            continue;
+        }
+        std::printf("%s\n", lease.status().message());
+        bool back = false;
+        while (!back && step < 3) {
+            constexpr const char* names[] = {"restart", "reopen", "port"};
+            const std::int64_t before = monotonic_us();
+            const Status shaken = camera.shake(static_cast<Shake>(step));
+            back = shaken.ok();
+            std::printf("shake %s: %s after %lld ms\n", names[step], back ? "ok" : shaken.message(),
+                        static_cast<long long>((monotonic_us() - before) / 1000));
+            ++step;
+        }
+        if (!back)
+            return 69;
+    }
+    return 0;
 }
 
 long long resident_kib()
@@ -215,6 +289,12 @@ int main(int argc, char** argv)
         if (const auto format = format_named(words[2]))
             return capture(words[1], {*format, number(3), number(4), 0}, number(5), number(6),
                            {words.begin() + 7, words.end()});
+    if (words.size() == 8 && words[0] == "hold")
+        if (const auto format = format_named(words[2]))
+            return hold(words[1], {*format, number(3), number(4), 0}, number(5), number(6), words[7]);
+    if (words.size() == 7 && words[0] == "ladder")
+        if (const auto format = format_named(words[1]))
+            return ladder({*format, number(2), number(3), 0}, number(4), number(5), words[6]);
     if (words.size() == 7 && words[0] == "cycles")
         if (const auto format = format_named(words[1]))
             return cycles({*format, number(2), number(3), 0}, number(4), number(5), words[6]);

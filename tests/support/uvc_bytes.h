@@ -104,9 +104,10 @@ public:
     {
         add({26 + 4 * static_cast<int>(intervals.size()), 0x24, subtype, index, 0, low(width), high(width), low(height),
              high(height)});
-        number(static_cast<std::uint32_t>(width * height * 16 * 5));
-        number(static_cast<std::uint32_t>(width * height * 16 * 30));
-        number(static_cast<std::uint32_t>(width * height * 2));
+        const std::uint32_t pixels = static_cast<std::uint32_t>(width) * static_cast<std::uint32_t>(height);
+        number(pixels * 16 * 5);
+        number(pixels * 16 * 30);
+        number(pixels * 2);
         number(intervals.size() == 0 ? 0 : *intervals.begin());
         add({static_cast<int>(intervals.size())});
         for (const std::uint32_t interval : intervals)

@@ -10,7 +10,7 @@ set -eu
 
 release=bookworm
 packages=linux-image-arm64,busybox-static,v4l-utils
-recipe="1 $release arm64 $packages"
+recipe="2 $release arm64 $packages"
 
 checkout=$(cd "$(dirname "$0")/../.." && pwd)
 tree=$checkout/.cache/vm-arm64
@@ -45,7 +45,9 @@ set -- "$fresh"/boot/vmlinuz-*
 version=${1##*/vmlinuz-}
 mv "$1" "$fresh/vmlinuz"
 depmod -b "$fresh" "$version"
-rm -rf "$fresh/boot" "$fresh/usr/share" "$fresh/var" "$fresh/etc" "$fresh/dev"
+for folder in boot usr/share var etc dev; do
+    rm -rf "${fresh:?}/$folder"
+done
 chmod 755 "$fresh"
 printf '%s\n' "$version" >"$fresh/version"
 printf '%s\n' "$recipe" >"$fresh/recipe"

@@ -1,7 +1,7 @@
 # Words for scripts of the virtual machine that need virtual cameras: frames from /frames/left and /frames/right, left on
 # USB port 1-1, right on 1-2. To be sourced after report.sh.
 
-commands=/tmp/commands
+commands=$PWD/commands
 log=/out/camera.log
 [ -p $commands ] || mkfifo $commands
 
@@ -27,7 +27,7 @@ say() {
     for line; do
         taken=$(grep -cF "command: taken: $line" $log)
         timeout 5 sh -c "echo '$line' >$commands" || return
-        await 5 more_than "$taken" "command: taken: $line" || return
+        await 15 more_than "$taken" "command: taken: $line" || return
     done
 }
 more_than() { [ "$(grep -cF "$2" $log)" -gt "$1" ]; }

@@ -1,4 +1,4 @@
-# How a script of the virtual machine reports. To be sourced.
+# How a script of the virtual machine reports. To be sourced; the working directory is theirs.
 
 # /out/times tells when each test was done, in seconds since the machine's start.
 ok() { # name
@@ -15,11 +15,11 @@ failed() { # name, why
 judge() { # name, command ...
     judged=$1
     shift
-    if "$@" >/tmp/judge.log 2>&1; then
+    if "$@" >judge.log 2>&1; then
         ok "$judged"
     else
         failed "$judged" "exit code $? of: $*"
-        tail -n 12 /tmp/judge.log | sed 's/^/    /'
+        tail -n 12 judge.log | sed 's/^/    /'
     fi
 }
 

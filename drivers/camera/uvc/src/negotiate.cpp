@@ -68,9 +68,7 @@ Result<UvcAlternate> smallest_that_fits(const UsbPort& port, const UvcDevice& de
     return *chosen;
 }
 
-} // namespace
-
-Result<Agreement> agree(UsbPort& port, const UvcDevice& device, const CameraMode& mode, std::uint8_t alternate) noexcept
+Result<StreamControl> wish_of(const UsbPort& port, const UvcDevice& device, const CameraMode& mode) noexcept
 {
     const std::optional<UvcModePlace> place = place_of(device, mode);
     if (!place)
@@ -81,9 +79,22 @@ Result<Agreement> agree(UsbPort& port, const UvcDevice& device, const CameraMode
     wish.format_index = place->format_index;
     wish.frame_index = place->frame_index;
     wish.interval_100ns = mode.interval_100ns;
-    StreamControl answer = TRY(probe(port, device, wish));
-    TRY(check_answer(port, wish, answer));
+    return wish;
+}
 
+} // namespace
+
+Result<StreamControl> ask_mode(UsbPort& port, const UvcDevice& device, const CameraMode& mode) noexcept
+{
+    const StreamControl wish = TRY(wish_of(port, device, mode));
+    const StreamControl answer = TRY(probe(port, device, wish));
+    TRY(check_answer(port, wish, answer));
+    return answer;
+}
+
+Result<Agreement> agree(UsbPort& port, const UvcDevice& device, const CameraMode& mode, std::uint8_t alternate) noexcept
+{
+    StreamControl answer = TRY(ask_mode(port, device, mode));
     UvcAlternate setting = device.settings().front();
     if (!device.bulk() && alternate == 0) {
         setting = TRY(smallest_that_fits(port, device, answer.most_payload_bytes));
@@ -98,8 +109,9 @@ Result<Agreement> agree(UsbPort& port, const UvcDevice& device, const CameraMode
             StreamControl smaller = answer;
             smaller.hint = kKeepInterval;
             smaller.most_payload_bytes = bytes_of(setting);
-            answer = TRY(probe(port, device, smaller));
-            TRY(check_answer(port, wish, answer));
+            const StreamControl second = TRY(probe(port, device, smaller));
+            TRY(check_answer(port, answer, second));
+            answer = second;
         }
         if (answer.most_payload_bytes > bytes_of(setting))
             return failure(Fault::kTryAgain,

@@ -21,4 +21,7 @@ struct Agreement
 Result<Agreement> agree(UsbPort& port, const UvcDevice& device, const CameraMode& mode,
                         std::uint8_t alternate) noexcept;
 
+/// What the camera would agree to for this mode; nothing is committed. Faults as for agree().
+Result<StreamControl> ask_mode(UsbPort& port, const UvcDevice& device, const CameraMode& mode) noexcept;
+
 } // namespace dicot

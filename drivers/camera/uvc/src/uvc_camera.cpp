@@ -192,6 +192,15 @@ int UvcCamera::bus() const noexcept
     return works_->listed.bus;
 }
 
+Result<std::uint32_t> UvcCamera::payload_bytes(const CameraMode& mode)
+{
+    Works& works = *works_;
+    if (works.stream.running())
+        return failure(Fault::kTryAgain, "the camera at USB port %s streams; stop it before asking it for another mode",
+                       works.listed.identity.port.text);
+    return TRY(ask_mode(works.port, works.listed.device, mode)).most_payload_bytes;
+}
+
 void UvcCamera::use_alternate(std::uint8_t number) noexcept
 {
     works_->planned_alternate = number;

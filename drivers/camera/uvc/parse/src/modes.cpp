@@ -68,6 +68,13 @@ std::optional<UvcModePlace> place_of(const UvcDevice& device, const CameraMode& 
     return std::nullopt;
 }
 
+std::size_t settings_of(const UvcDevice& device, std::span<AlternateSetting> settings) noexcept
+{
+    const auto told = device.settings().first(std::min<std::size_t>(settings.size(), device.alternate_count));
+    std::ranges::transform(told, settings.begin(), &UvcAlternate::setting);
+    return told.size();
+}
+
 std::size_t largest_frame_bytes(const UvcDevice& device) noexcept
 {
     std::size_t largest = 0;

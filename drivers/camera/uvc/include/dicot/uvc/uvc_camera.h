@@ -43,6 +43,10 @@ public:
     UsbSpeed speed() const noexcept;
     int bus() const noexcept;
 
+    /// Bytes of one interval that the camera wants for a mode, for the bandwidth plan; asks it, commits to nothing, and
+    /// must not be called while it streams. Fault::kTryAgain: it refuses the mode, or streams.
+    Result<std::uint32_t> payload_bytes(const CameraMode& mode);
+
     /// The alternate setting of the bandwidth plan, from the next start() on. The camera is then asked to make its
     /// payloads fit; one that will not makes start() fail with Fault::kTryAgain. 0: the smallest setting that fits.
     void use_alternate(std::uint8_t number) noexcept;

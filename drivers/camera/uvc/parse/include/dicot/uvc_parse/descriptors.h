@@ -111,6 +111,9 @@ struct UvcModePlace
 std::size_t modes_of(const UvcDevice& device, std::span<CameraMode> modes) noexcept;
 std::optional<UvcModePlace> place_of(const UvcDevice& device, const CameraMode& mode) noexcept;
 
+/// The alternate settings in the planner's words, as far as `settings` has room. Returns how many.
+std::size_t settings_of(const UvcDevice& device, std::span<AlternateSetting> settings) noexcept;
+
 /// Bytes of the largest frame of all modes: 0 of a device without modes.
 std::size_t largest_frame_bytes(const UvcDevice& device) noexcept;
 
