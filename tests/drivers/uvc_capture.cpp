@@ -27,7 +27,7 @@ namespace {
 
 using namespace dicot;
 
-constexpr std::int64_t kFrameUs = 15'000'000; ///< how long a frame may take under emulation
+constexpr std::int64_t kFrameUs = 6'000'000; ///< how long a frame may take under emulation
 
 int complain(const Status& status)
 {
@@ -98,6 +98,13 @@ void write_frame(const std::string& path, const Frame& frame)
         std::fclose(file);
 }
 
+void print_frame(const std::string& name, int number, const Frame& frame)
+{
+    std::printf("%s %d %s %zu bytes, sequence %u, lost %u, start %lld%s%s\n", name.c_str(), number,
+                name_of(frame.verdict), frame.bytes.size(), frame.sequence, frame.lost_before,
+                static_cast<long long>(frame.start_us), *frame.flaw != '\0' ? ", " : "", frame.flaw);
+}
+
 struct Eye
 {
     std::string name;
@@ -157,13 +164,6 @@ int capture(const std::string& out, const CameraMode& wanted, int fps, int frame
     return worst;
 }
 
-void print_frame(const std::string& name, int number, const Frame& frame)
-{
-    std::printf("%s %d %s %zu bytes, sequence %u, lost %u, start %lld%s%s\n", name.c_str(), number,
-                name_of(frame.verdict), frame.bytes.size(), frame.sequence, frame.lost_before,
-                static_cast<long long>(frame.start_us), *frame.flaw != '\0' ? ", " : "", frame.flaw);
-}
-
 /// Opens the camera and starts the mode of this size whose rate is nearest.
 Result<std::unique_ptr<UvcCamera>> streaming(const std::string& name, const CameraMode& wanted, int fps)
 {
@@ -209,7 +209,7 @@ int ladder(const CameraMode& wanted, int fps, int frames, const std::string& nam
     UvcCamera& camera = *opened.value();
     int step = 0;
     for (int i = 0; i < frames;) {
-        const Result<FrameLease> lease = camera.next(monotonic_us() + kFrameUs / 5);
+        const Result<FrameLease> lease = camera.next(monotonic_us() + kFrameUs / 2);
         if (lease.ok()) {
             print_frame(name, i++, *lease.value());
             step = 0;

@@ -99,7 +99,7 @@ unplugged() {
 }
 judge uvc.fault.unplug unplugged
 gone() { [ ! -e /sys/bus/usb/devices/1-1 ]; }
-cut() {
+cut_short() {
     say "left now unplug" && await 5 gone && say "left plug cut_descriptors byte=100" "left now plug" &&
         await 5 test -f /sys/bus/usb/devices/1-1/product
     says 'USB port 1-1 cannot be used' uvc_capture controls 1-1
@@ -143,7 +143,7 @@ lost() {
     ! climbs "^1-1 2 cancelled" "shake port: there is no camera" && await 5 gone && say "left now plug" && await 10 both_there
 }
 judge uvc.ladder.gone lost
-judge uvc.fault.cut_descriptors cut
+judge uvc.fault.cut_descriptors cut_short
 product() {
     say "left now unplug" && await 5 gone && say "left now forget" 'left plug product text=\x1b[31mred' "left now plug" &&
         await 10 both_there && says "'?.31mred'" uvc_capture list
