@@ -176,6 +176,7 @@ cross() {
 # The cameras of tests/support before the kernel's own driver. A machine that does not boot is a failure.
 vm() {
     count_lines sh tests/vm/selfcheck.sh || return
+    count_lines sh tests/vm/uvc.sh || return
 }
 
 purposes="build quickstart test"

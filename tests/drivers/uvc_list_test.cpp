@@ -97,6 +97,20 @@ TEST_F(UsbDevices, ACameraIsFoundByPortOrByTheSerialNumberThatItAloneHas)
     EXPECT_FALSE(find_uvc_camera("", at.c_str()).ok());
 }
 
+TEST_F(UsbDevices, OnePortIsLookedAtAgain)
+{
+    plug("1-1", test::c270_bytes().bytes(), "left", "SAME");
+    const std::string at = folder();
+    std::vector<std::byte> room(kMostUsbDescriptorBytes);
+    const Result<UvcListed> there = look_at_port("1-1", room, at.c_str());
+    ASSERT_TRUE(there.ok()) << there.status().message();
+    EXPECT_STREQ(there.value().identity.name.text, "left");
+    EXPECT_EQ(there.value().device.frame_count, 5);
+    EXPECT_EQ(look_at_port("1-2", room, at.c_str()).status().fault(), Fault::kUnavailable);
+    EXPECT_EQ(look_at_port("../x-1", room, at.c_str()).status().fault(), Fault::kUnavailable);
+    EXPECT_EQ(look_at_port("1-1", std::span{room}.first(60), at.c_str()).status().fault(), Fault::kBadData);
+}
+
 TEST_F(UsbDevices, ASystemWithoutUsbSaysSo)
 {
     const Result<std::vector<UvcListed>> listed = list_uvc_cameras((folder() + "/nowhere").c_str());

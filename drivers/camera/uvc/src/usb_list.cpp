@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <climits>
+#include <cstdio>
+#include <cstring>
 #include <span>
 #include <string>
 
@@ -13,14 +16,22 @@
 namespace dicot {
 namespace {
 
-/// A device descriptor and the longest configuration that wTotalLength can tell.
-constexpr std::size_t kMostDescriptorBytes = 18 + 65535;
 constexpr std::size_t kMostUsbDevices = 512;
 
-/// As much of a small file as `room` holds; 0 if it is not there.
-std::size_t read_whole(const std::string& path, std::span<std::byte> room)
+/// A file of a device: "<folder>/<port>/<name>".
+struct Attribute
 {
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    Attribute(const char* folder, const char* port, const char* name) noexcept
+    {
+        std::snprintf(path, sizeof path, "%s/%s/%s", folder, port, name);
+    }
+    char path[PATH_MAX];
+};
+
+/// As much of a small file as `room` holds; 0 if it is not there.
+std::size_t read_whole(const Attribute& attribute, std::span<std::byte> room) noexcept
+{
+    const int file = ::open(attribute.path, O_RDONLY | O_CLOEXEC);
     if (file < 0)
         return 0;
     std::size_t held = 0;
@@ -36,24 +47,24 @@ std::size_t read_whole(const std::string& path, std::span<std::byte> room)
 
 /// The first line of an attribute.
 template <std::size_t N>
-std::string_view line_of(const std::string& path, std::array<char, N>& room)
+std::string_view line_of(const Attribute& attribute, std::array<char, N>& room) noexcept
 {
-    const std::size_t held = read_whole(path, std::as_writable_bytes(std::span{room}));
+    const std::size_t held = read_whole(attribute, std::as_writable_bytes(std::span{room}));
     const std::string_view text{room.data(), held};
     return text.substr(0, text.find('\n'));
 }
 
-int number_of(const std::string& path)
+int number_of(const Attribute& attribute) noexcept
 {
     std::array<char, 32> room{};
-    const std::string_view text = line_of(path, room);
+    const std::string_view text = line_of(attribute, room);
     int number = 0;
     std::from_chars(text.data(), text.data() + text.size(), number);
     return number;
 }
 
 /// Linux tells Mbit/s: 1.5, 12, 480, 5000, 10000, 20000.
-UsbSpeed speed_of(int mbit_per_s)
+UsbSpeed speed_of(int mbit_per_s) noexcept
 {
     if (mbit_per_s >= 5000)
         return UsbSpeed::kSuper;
@@ -61,7 +72,7 @@ UsbSpeed speed_of(int mbit_per_s)
 }
 
 /// "1-1.2" is a device at a port; "usb1" is a root hub and "1-1.2:1.0" an interface.
-bool names_a_port(std::string_view name)
+bool names_a_port(std::string_view name) noexcept
 {
     return !name.empty() && name.front() >= '0' && name.front() <= '9' && name.find('-') != std::string_view::npos &&
            name.find(':') == std::string_view::npos && name.size() <= 31;
@@ -83,26 +94,26 @@ std::vector<std::string> ports_in(const char* folder, bool& there)
     return ports;
 }
 
-UvcListed listed_at(const std::string& device, const std::string& port, std::span<const std::byte> descriptors)
+UvcListed listed_at(const char* folder, const char* port, std::span<const std::byte> descriptors) noexcept
 {
     UvcListed listed;
     listed.identity.driver = "uvc";
-    listed.identity.port.assign(port.data(), port.size());
+    listed.identity.port.assign(port, std::strlen(port));
     std::array<char, 256> room{};
-    const std::string_view name = line_of(device + "/product", room);
+    const std::string_view name = line_of({folder, port, "product"}, room);
     listed.identity.name.assign(name.data(), name.size());
-    const std::string_view serial = line_of(device + "/serial", room);
+    const std::string_view serial = line_of({folder, port, "serial"}, room);
     listed.identity.serial.assign(serial.data(), serial.size());
-    listed.bus = number_of(device + "/busnum");
-    listed.address = number_of(device + "/devnum");
-    listed.speed = speed_of(number_of(device + "/speed"));
+    listed.bus = number_of({folder, port, "busnum"});
+    listed.address = number_of({folder, port, "devnum"});
+    listed.speed = speed_of(number_of({folder, port, "speed"}));
 
-    const int configuration = number_of(device + "/bConfigurationValue");
+    const int configuration = number_of({folder, port, "bConfigurationValue"});
     const Result<UvcDevice> read = parse_uvc_device(descriptors, static_cast<std::uint8_t>(configuration));
     if (read.ok())
         listed.device = read.value();
     else
-        listed.unusable = failure(read.status().fault(), "the camera at USB port %s cannot be used: %s", port.c_str(),
+        listed.unusable = failure(read.status().fault(), "the camera at USB port %s cannot be used: %s", port,
                                   read.status().message());
     listed.identity.vendor = listed.device.vendor;
     listed.identity.product = listed.device.product;
@@ -110,7 +121,7 @@ UvcListed listed_at(const std::string& device, const std::string& port, std::spa
 }
 
 /// Whether the kernel found an interface of the video class, whatever became of the rest.
-bool has_video(std::span<const std::byte> descriptors)
+bool has_video(std::span<const std::byte> descriptors) noexcept
 {
     for (std::size_t at = 18; at + 9 <= descriptors.size();) {
         const auto byte = [&](std::size_t i) { return std::to_integer<unsigned>(descriptors[at + i]); };
@@ -129,15 +140,25 @@ Result<std::vector<UvcListed>> list_uvc_cameras(const char* folder)
     const std::vector<std::string> ports = ports_in(folder, there);
     if (!there)
         return failure(Fault::kUnavailable, "%s: this system lists no USB devices; is USB in its kernel?", folder);
-    std::vector<std::byte> room(kMostDescriptorBytes);
+    std::vector<std::byte> room(kMostUsbDescriptorBytes);
     std::vector<UvcListed> cameras;
     for (const std::string& port : ports) {
-        const std::string device = std::string{folder} + "/" + port;
-        const auto descriptors = std::span{room}.first(read_whole(device + "/descriptors", room));
+        const auto descriptors = std::span{room}.first(read_whole({folder, port.c_str(), "descriptors"}, room));
         if (has_video(descriptors))
-            cameras.push_back(listed_at(device, port, descriptors));
+            cameras.push_back(listed_at(folder, port.c_str(), descriptors));
     }
     return cameras;
+}
+
+Result<UvcListed> look_at_port(const char* port, std::span<std::byte> room, const char* folder) noexcept
+{
+    const auto descriptors = room.first(read_whole({folder, port, "descriptors"}, room));
+    if (!names_a_port(port) || !has_video(descriptors))
+        return failure(Fault::kUnavailable, "there is no camera at USB port %.31s", port);
+    UvcListed listed = listed_at(folder, port, descriptors);
+    if (!listed.unusable.ok())
+        return listed.unusable;
+    return listed;
 }
 
 Result<UvcListed> find_uvc_camera(std::string_view which, const char* folder)

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
 
 #include <unistd.h>
 
@@ -25,6 +24,7 @@ struct Layout
 {
     std::span<std::byte> frames;
     std::span<std::byte> transfers;
+    std::span<std::byte> descriptors; ///< for a second look at the port
 };
 
 Layout lay_out(Arena& arena, const UvcDevice& device, const UvcOptions& options) noexcept
@@ -34,6 +34,7 @@ Layout lay_out(Arena& arena, const UvcDevice& device, const UvcOptions& options)
     Layout layout;
     layout.frames = arena.take<std::byte>(slot * static_cast<std::size_t>(options.slots));
     layout.transfers = arena.take<std::byte>(UvcStream::buffer_bytes(device));
+    layout.descriptors = arena.take<std::byte>(kMostUsbDescriptorBytes);
     return layout;
 }
 
@@ -51,6 +52,7 @@ struct UvcCamera::Works
     std::shared_ptr<UsbSession> session;
     MemoryBlock memory;
     std::size_t transfer_bytes = 0; ///< what the largest stream that was planned for takes
+    std::span<std::byte> descriptors;
     UsbPort port;
     UvcControls controls;
     FrameRing ring;
@@ -110,16 +112,16 @@ Status UvcCamera::Works::begin()
 Status UvcCamera::Works::reopen(std::int64_t patience_us)
 {
     port.close();
-    const std::string place = listed.identity.port.text;
+    const DeviceText<31> place = listed.identity.port;
     const std::int64_t deadline = monotonic_us() + patience_us;
     for (;;) {
-        const Result<UvcListed> found = find_uvc_camera(place);
+        const Result<UvcListed> found = look_at_port(place.text, descriptors);
         if (found.ok()) {
             const UvcListed& now = found.value();
             if (now.device.vendor != listed.device.vendor || now.device.product != listed.device.product ||
                 UvcStream::buffer_bytes(now.device) > transfer_bytes)
                 return failure(Fault::kUnavailable,
-                               "another camera is at USB port %s now: %04x:%04x instead of %04x:%04x", place.c_str(),
+                               "another camera is at USB port %s now: %04x:%04x instead of %04x:%04x", place.text,
                                unsigned{now.device.vendor}, unsigned{now.device.product},
                                unsigned{listed.device.vendor}, unsigned{listed.device.product});
             listed = now;
@@ -153,6 +155,7 @@ Result<std::unique_ptr<UvcCamera>> UvcCamera::open(std::string_view which, const
     Arena arena(works->memory.bytes());
     const Layout layout = lay_out(arena, device, options);
     works->transfer_bytes = layout.transfers.size();
+    works->descriptors = layout.descriptors;
     works->ring.lay_out(layout.frames, options.slots);
     TRY(works->stream.make(layout.transfers));
     works->session = TRY(UsbSession::share());
