@@ -34,7 +34,7 @@ public:
 
     UvcCamera(const UvcCamera&) = delete;
     UvcCamera& operator=(const UvcCamera&) = delete;
-    ~UvcCamera();
+    ~UvcCamera() override;
 
     /// What open() would map for this device.
     static std::size_t memory_bytes(const UvcDevice& device, const UvcOptions& options) noexcept;
