@@ -6,10 +6,11 @@ cd "$(dirname "$0")/.."
 build=.build/quickstart
 out=.build/quickstart-out
 cache=.cache
+pictures=$cache/opencv-doc
 log=.build/quickstart.log
 . toolchain/packages.sh
 
-step() { printf '\n[%s/6] %s\n' "$1" "$2"; }
+step() { printf '\n[%s/7] %s\n' "$1" "$2"; }
 
 fail() {
     echo "quickstart: $1" >&2
@@ -34,18 +35,36 @@ compile() {
 
 download() { (cd "$1" && apt-get -q download opencv-doc); }
 
+boards() { # left or right: pair 10 is not in the package
+    for number in 01 02 03 04 05 06 07 08 09 11 12 13 14; do
+        echo "$1$number.jpg"
+    done
+}
+
 take_out() { # folder
     data=./usr/share/doc/opencv-doc/examples/data
     download "$1" || { [ "$(id -u)" = 0 ] && apt-get -q update && download "$1"; } || return
+    # shellcheck disable=SC2046 # names without blanks
     dpkg-deb --fsys-tarfile "$1"/opencv-doc_*.deb |
-        tar -x -C "$1" --strip-components=7 -f - $data/aloeL.jpg $data/aloeR.jpg $data/aloeGT.png || return
+        tar -x -C "$1" --strip-components=7 -f - \
+            $(for name in aloeL.jpg aloeR.jpg aloeGT.png $(boards left) $(boards right); do echo "$data/$name"; done) || return
     rm -f "$1"/opencv-doc_*.deb
+    mkdir "$1/boards"
+    for name in $(boards left) $(boards right); do
+        mv "$1/$name" "$1/boards/" || return
+    done
 }
 
-# Three files out of Debian's opencv-doc, without installing it.
-fetch_pair() {
-    [ ! -f "$cache/aloe/aloeL.jpg" ] || [ ! -f "$cache/aloe/aloeR.jpg" ] || [ ! -f "$cache/aloe/aloeGT.png" ] || return 0
-    folder=$(mktemp -d "$cache/aloe.XXXXXX")
+have_pictures() { # folder
+    for name in aloeL.jpg aloeR.jpg aloeGT.png $(boards boards/left) $(boards boards/right); do
+        [ -s "$1/$name" ] || return 1
+    done
+}
+
+# Pictures out of Debian's opencv-doc, without installing it.
+fetch_pictures() {
+    ! have_pictures "$pictures" || return 0
+    folder=$(mktemp -d "$cache/opencv-doc.XXXXXX")
     trap 'rm -rf "$folder"' EXIT
     # As root, apt lets its own user download; the folder is open to it.
     [ "$(id -u)" != 0 ] || chmod 777 "$folder"
@@ -53,12 +72,10 @@ fetch_pair() {
         tail -n 10 "$log" >&2
         fail "cannot take the pictures out of Debian's package opencv-doc: check the network, run 'apt-get update'" 69
     fi
-    for name in aloeL.jpg aloeR.jpg aloeGT.png; do
-        [ -s "$folder/$name" ] || fail "Debian's package opencv-doc holds no $name" 69
-    done
-    rm -rf "$cache/aloe"
+    have_pictures "$folder" || fail "Debian's package opencv-doc does not hold all pictures: $log" 69
+    rm -rf "$pictures"
     chmod 755 "$folder"
-    mv "$folder" "$cache/aloe"
+    mv "$folder" "$pictures"
     trap - EXIT
 }
 
@@ -102,9 +119,9 @@ dicot=$build/platform/app/dicot
 "$dicot" --version
 
 step 3 "A real pair: the Aloe of Middlebury 2006, out of Debian's opencv-doc"
-fetch_pair
-quietly djpeg -scale 1/2 -outfile "$out/left.ppm" "$cache/aloe/aloeL.jpg"
-quietly djpeg -scale 1/2 -outfile "$out/right.ppm" "$cache/aloe/aloeR.jpg"
+fetch_pictures
+quietly djpeg -scale 1/2 -outfile "$out/left.ppm" "$pictures/aloeL.jpg"
+quietly djpeg -scale 1/2 -outfile "$out/right.ppm" "$pictures/aloeR.jpg"
 write_rig "$out/rig.yaml"
 echo "scaled to 641 x 555 px, the size that a board works at"
 echo "geometry (half of full size): focal length 1870 px, baseline 160 mm, disparity offset 135 px. The offset is what is"
@@ -116,20 +133,27 @@ step 4 "From the pair to a compressed cloud: dicot process"
 
 step 5 "Against the ground truth: dicot match --dense, dicot evaluate"
 "$dicot" match "$out/left.ppm" "$out/right.ppm" -o "$out/dense.pfm" --dense --disparities 118
-"$dicot" evaluate "$out/dense.pfm" "$cache/aloe/aloeGT.png"
+"$dicot" evaluate "$out/dense.pfm" "$pictures/aloeGT.png"
 
-step 6 "Done in $(($(date +%s) - packaged)) s (and $((packaged - started)) s for packages). In $PWD/$out:"
+step 6 "A rig of one's own: dicot calibrate, on 13 pairs of a chessboard out of the same package"
+"$dicot" calibrate --images "$pictures/boards" --corners 9x6 --square-mm 30 --near-mm 250 --far-mm 550 \
+    -o "$out/webcams.yaml" --report "$out/calibration"
+
+step 7 "Done in $(($(date +%s) - packaged)) s (and $((packaged - started)) s for packages). In $PWD/$out:"
 cat <<WHERE
   cloud.drc      the cloud, Draco-compressed: $(wc -c <"$out/cloud.drc") bytes; as PLY $(wc -c <"$out/cloud.ply")
   cloud.ply      the same for CloudCompare, MeshLab, Blender: open or import it there
   preview.png    the cloud from two viewpoints
   disparity.png  distances in colour: red is near, blue far, black has no match
   dense.pfm      every pixel's disparity, as the benchmarks want it
-  rig.yaml       the cameras' geometry: write one like it for a rectified pair of your own
+  rig.yaml       the geometry of that pair, which was rectified before it was published
+  webcams.yaml   the geometry of two webcams, as calibrated from pictures of a chessboard
+  calibration    how far to trust it: open calibration/index.html
 
 Next, in $PWD:
   $dicot info $out/cloud.drc
   $dicot export $out/cloud.drc -o cloud.pcd
+  $dicot calibrate --images DIR --corners 9x6 --square-mm 30 -o RIG.yaml
   $dicot process LEFT RIGHT --rig RIG.yaml -o CLOUD.drc
   $dicot --help
   sh toolchain/test.sh

@@ -166,8 +166,15 @@ cross() {
     if [ -f "$pair/left.png" ] && [ -f "$pair/right.png" ]; then
         set -- "$pair/left.png" "$pair/right.png"
     else
-        set --
+        set -- '' ''
         not_run="${not_run}cross: NOT RUN: the real pair: $pair is not there
+"
+    fi
+    boards=../shared/data/calibration-opencv
+    if [ -f "$boards/left01.jpg" ]; then
+        set -- "$@" "$boards"
+    else
+        not_run="${not_run}cross: NOT RUN: calibration: $boards is not there
 "
     fi
     count_lines sh tests/system/cross_test.sh .build/release/platform/app/dicot "$@" || return

@@ -1,5 +1,6 @@
 // dicot bench: how fast this computer matches, where the time goes, and how far that is from what its core can do.
 #include "bench_loops.h"
+#include "bench_rectify.h"
 #include "commands.h"
 #include "match_bench.h"
 #include "match_words.h"
@@ -91,6 +92,8 @@ Status run(const Words& words)
     const double clock_hz = core_clock_hz();
     const double float_loop = float_loop_terms_per_s();
     const double kernel = kernel_terms_per_s(*kernels);
+    const RectifySpeed rectified = TRY(time_rectify(*kernels));
+    const RectifySpeed rectified_by_law = TRY(time_rectify(kScalarKernels));
     const MatchRun one = TRY(time_match(words, *kernels, 1));
     const MatchRun two = TRY(time_match(words, *kernels, 2));
     const double peak = peak_terms_per_cycle(*kernels);
@@ -115,6 +118,12 @@ Status run(const Words& words)
         {{"match_s", one.seconds}, {"cpu_s", one.cpu_seconds}, {"terms_per_cpu_s", one.terms_per_cpu_s}});
     report["two_threads"].update(
         {{"match_s", two.seconds}, {"cpu_s", two.cpu_seconds}, {"terms_per_cpu_s", two.terms_per_cpu_s}});
+    report["rectify"] = {{"width", RectifySpeed::kWidth},
+                         {"height", RectifySpeed::kHeight},
+                         {"rounds", RectifySpeed::kRounds},
+                         {"pair_ms", rectified.pair_ms},
+                         {"pixels_per_s", rectified.pixels_per_s()},
+                         {"scalar_pair_ms", rectified_by_law.pair_ms}};
     if (peak > 0)
         report["aggregate_share_of_peak"] = kernel / clock_hz / peak;
     if (words.json) {
@@ -132,6 +141,9 @@ Status run(const Words& words)
     if (peak > 0)
         std::printf(", %.0f %% of what the core could", 100 * kernel / clock_hz / peak);
     std::printf("\n");
+    std::printf("rectify 2 x %d x %d colour, warm, median of %d  %6.2f ms (%s), %.0f MPx/s; scalar %.2f ms\n",
+                RectifySpeed::kWidth, RectifySpeed::kHeight, RectifySpeed::kRounds, rectified.pair_ms, kernels->name,
+                rectified.pixels_per_s() * 1e-6, rectified_by_law.pair_ms);
     const auto line = [&](const char* name, const MatchRun& run) {
         std::printf("%-12s %6.2f s, %.2f s of processor, %8.2e terms/s of processor (prepare %.2f, cost %.2f, weights "
                     "%.2f, aggregate %.2f, select %.2f, "

@@ -6,6 +6,7 @@
 namespace dicot::app {
 
 void add_bench(CLI::App& program, Command& chosen);
+void add_calibrate(CLI::App& program, Command& chosen);
 void add_evaluate(CLI::App& program, Command& chosen);
 void add_match(CLI::App& program, Command& chosen);
 void add_process(CLI::App& program, Command& chosen);

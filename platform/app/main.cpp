@@ -33,6 +33,7 @@ int main(int argc, char** argv)
 
     app::Command chosen;
     app::add_bench(program, chosen);
+    app::add_calibrate(program, chosen);
     app::add_match(program, chosen);
     app::add_process(program, chosen);
     app::add_rectify(program, chosen);

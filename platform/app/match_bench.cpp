@@ -1,16 +1,8 @@
 #include "match_bench.h"
 
+#include "take_picture.h"
+
 namespace dicot::app {
-namespace {
-
-template <typename Pixel>
-ImageView<Pixel> take_picture(Arena& arena, int width, int height)
-{
-    const auto pixels = arena.take<Pixel>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    return {pixels.data(), width, height};
-}
-
-} // namespace
 
 Result<MatchBudget> match_budget(int width, int height, const MatchOptions& options, int workers)
 {

@@ -31,7 +31,7 @@ Status run(const Words& words)
     const int threads = words.match.resolved_threads();
     const MatchOptions options = words.match.resolved();
     const MatchBudget budget = TRY(match_budget(words.width, words.height, options, threads));
-    const Result<ProcessBudget> process = process_budget(words.width, words.height, options, threads);
+    const Result<ProcessBudget> process = process_budget(words.width, words.height, Pictures::kRaw, options, threads);
     const ProcessMemory bare = TRY(process_memory());
     const std::size_t program = static_cast<std::size_t>(bare.resident_bytes) + kWorkingBytes;
     const std::size_t total = program + budget.total();

@@ -6,6 +6,7 @@
 #include "progress.h"
 #include "rectify_rig.h"
 #include "sealed_heap.h"
+#include "take_picture.h"
 
 #include "dicot/cloud/disparity_picture.h"
 #include "dicot/cloud/render.h"
@@ -132,7 +133,7 @@ Result<Plan> make_plan(const Words& words)
     TRY(check_size(words.left, words.rig, rig));
     TRY(check_size(words.right, words.rig, rig));
     if (describes_cameras(rig))
-        plan.tables = TRY(RectifyTables::make(rig, kCrop, words.rig.c_str()));
+        plan.tables = TRY(RectifyTables::load_or_build(rig, kCrop, words.rig.c_str()));
     plan.rig = TRY(geometry_of(rig, words.rig.c_str()));
     plan.range = TRY(range_of(words, rig));
     const DisparityRange search = TRY(disparity_range(plan.rig, plan.range));
@@ -164,7 +165,7 @@ Result<PointCloud> see(const Words& words, const Plan& plan, ProcessBench& bench
     const int width = plan.rig.width;
     const int height = plan.rig.height;
     Arena stage = bench.next_stage();
-    const auto left = take_picture<Rgb8>(bench.kept, width, height);
+    const auto left = take_picture<Rgb8>(stage, width, height);
     const auto right = take_picture<Rgb8>(stage, width, height);
     const auto painted = take_picture<Rgb8>(stage, width, height);
     Matcher matcher = TRY(Matcher::make(width, height, plan.match, *plan.kernels, plan.threads, stage));
@@ -237,6 +238,12 @@ nlohmann::json report_of(const Words& words, const Plan& plan, const ProcessBudg
         const double step = grid.step_um * 1e-6;
         return nlohmann::json{steps[0] * step, steps[1] * step, steps[2] * step};
     };
+    nlohmann::json tables; // null: none were needed
+    if (plan.tables) {
+        const std::string& file = plan.tables->loaded_from();
+        tables = {{"loaded_from", file.empty() ? nlohmann::json() : nlohmann::json(file)},
+                  {"ms", plan.tables->milliseconds()}};
+    }
     return {{"output", words.cloud},
             {"width", plan.rig.width},
             {"height", plan.rig.height},
@@ -271,7 +278,8 @@ nlohmann::json report_of(const Words& words, const Plan& plan, const ProcessBudg
               {"write", times.write_s},
               {"pictures", times.pictures_s}}},
             {"rectified", plan.tables.has_value()},
-            {"reserved_memory_bytes", budget.total() + (plan.tables ? plan.tables->reserved_bytes() : 0)},
+            {"tables", tables},
+            {"reserved_memory_bytes", budget.total()},
             {"compressor_peak_bytes", found.heap_peak_bytes},
             {"peak_memory_bytes", peak_bytes}};
 }
@@ -292,6 +300,8 @@ void print(const Words& words, const Plan& plan, const Findings& found, const St
                 plan.match.disparities, plan.match.min_disparity, plan.range.near_mm, plan.range.far_mm, plan.rig.width,
                 plan.rig.height, static_cast<long long>(pixels.missing), static_cast<long long>(pixels.too_near),
                 static_cast<long long>(pixels.too_far + pixels.beyond));
+    if (plan.tables)
+        std::printf("rectification tables: %s\n", plan.tables->origin().c_str());
     std::printf("read %.3f s, rectify %.3f s, match %.3f s (%s, %d threads), triangulate %.3f s, encode and verify "
                 "%.3f s, write %.3f s, "
                 "pictures %.3f s; peak memory %.1f MiB\n",
@@ -303,7 +313,8 @@ Status run(const Words& words)
 {
     TRY(check_outputs(words));
     const Plan plan = TRY(make_plan(words));
-    ProcessBench bench = TRY(ProcessBench::make(plan.rig.width, plan.rig.height, plan.match, plan.threads));
+    const Pictures pictures = plan.tables ? Pictures::kRaw : Pictures::kRectified;
+    ProcessBench bench = TRY(ProcessBench::make(plan.rig.width, plan.rig.height, pictures, plan.match, plan.threads));
     ThreadCrew crew(plan.threads);
     TRY(crew.started());
     Findings findings;

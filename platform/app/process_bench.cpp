@@ -1,5 +1,8 @@
 #include "process_bench.h"
 
+#include "rectify_rig.h"
+#include "take_picture.h"
+
 #include "dicot/cloud/render.h"
 #include "dicot/codec/encode_cloud.h"
 
@@ -25,7 +28,7 @@ PreviewSize preview_size(int width, int height)
     return {2 * kViewWidth, std::clamp(kViewWidth * height / width, kLeastViewHeight, kMostViewHeight)};
 }
 
-Result<ProcessBudget> process_budget(int width, int height, const MatchOptions& options, int workers)
+Result<ProcessBudget> process_budget(int width, int height, Pictures pictures, const MatchOptions& options, int workers)
 {
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     if (pixels > kMaxCloudPoints)
@@ -34,14 +37,14 @@ Result<ProcessBudget> process_budget(int width, int height, const MatchOptions& 
                        "down, with their rig file",
                        width, height, kMaxCloudPoints);
     ProcessBudget budget;
+    budget.tables = pictures == Pictures::kRaw ? RectifyTables::reserved_bytes(width, height) : 0;
     Arena kept;
-    (void)take_picture<Rgb8>(kept, width, height);
     (void)kept.take<CloudPoint>(pixels);
     budget.kept = kept.peak();
 
     Arena match;
-    (void)take_picture<Rgb8>(match, width, height);
-    (void)take_picture<Rgb8>(match, width, height);
+    for (int picture = 0; picture < 3; ++picture)
+        (void)take_picture<Rgb8>(match, width, height);
     (void)TRY(Matcher::make(width, height, options, kScalarKernels, workers, match));
     budget.match = match.peak();
 
@@ -63,10 +66,11 @@ ProcessBench::ProcessBench(MemoryBlock block, const ProcessBudget& budget)
 {
 }
 
-Result<ProcessBench> ProcessBench::make(int width, int height, const MatchOptions& options, int workers)
+Result<ProcessBench> ProcessBench::make(int width, int height, Pictures pictures, const MatchOptions& options,
+                                        int workers)
 {
-    const ProcessBudget budget = TRY(process_budget(width, height, options, workers));
-    return ProcessBench{TRY(MemoryBlock::map(budget.total())), budget};
+    const ProcessBudget budget = TRY(process_budget(width, height, pictures, options, workers));
+    return ProcessBench{TRY(MemoryBlock::map(budget.kept + budget.stages())), budget};
 }
 
 } // namespace dicot::app

@@ -3,7 +3,6 @@
 
 #include "dicot/base/arena.h"
 #include "dicot/base/cloud.h"
-#include "dicot/base/image.h"
 #include "dicot/matching/matcher.h"
 #include "dicot/os/memory_block.h"
 
@@ -15,12 +14,13 @@ namespace dicot::app {
 /// What a run over pictures of one size needs, in bytes. The three stages use the same memory, one after the other.
 struct ProcessBudget
 {
-    std::size_t kept = 0;    ///< the left picture and a point for each pixel
-    std::size_t match = 0;   ///< stage 1: right picture, matcher, picture of the disparities
+    std::size_t tables = 0;  ///< rectification: mapped apart, before the rest
+    std::size_t kept = 0;    ///< a point for each pixel
+    std::size_t match = 0;   ///< stage 1: both pictures, matcher, picture of the disparities
     std::size_t encode = 0;  ///< stage 2: the compressor's heap
     std::size_t preview = 0; ///< stage 3: the drawing of the cloud
     std::size_t stages() const;
-    std::size_t total() const { return kept + stages(); }
+    std::size_t total() const { return tables + kept + stages(); }
 };
 
 /// Size of the drawing: two views beside each other, shaped like the pictures.
@@ -31,15 +31,25 @@ struct PreviewSize
 };
 PreviewSize preview_size(int width, int height);
 
-/// Errors: those of Matcher::check(); kConfig when the pictures could give more points than a file holds.
-Result<ProcessBudget> process_budget(int width, int height, const MatchOptions& options, int workers);
+/// Whether the pictures come from the cameras as they are, or are rectified already.
+enum class Pictures
+{
+    kRaw,
+    kRectified
+};
 
-/// The memory, cut into what is kept and what the stages use in turn. Pages become resident when they are used.
+/// Errors: those of Matcher::check(); kConfig when the pictures could give more points than a file holds.
+Result<ProcessBudget> process_budget(int width, int height, Pictures pictures, const MatchOptions& options,
+                                     int workers);
+
+/// The memory but for the tables, cut into what is kept and what the stages use in turn. Pages become resident when
+/// they are used.
 class ProcessBench
 {
 public:
     /// Errors: those of process_budget(); kOsError when the system has not that much memory.
-    static Result<ProcessBench> make(int width, int height, const MatchOptions& options, int workers);
+    static Result<ProcessBench> make(int width, int height, Pictures pictures, const MatchOptions& options,
+                                     int workers);
 
     Arena kept;
     /// An arena over the stages' memory; what the stage before took is gone.
@@ -53,12 +63,5 @@ private:
     std::span<std::byte> stages_;
     ProcessBudget budget_;
 };
-
-template <typename Pixel>
-ImageView<Pixel> take_picture(Arena& arena, int width, int height)
-{
-    const auto pixels = arena.take<Pixel>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    return {pixels.data(), width, height};
-}
 
 } // namespace dicot::app

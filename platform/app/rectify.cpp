@@ -1,20 +1,18 @@
 // dicot rectify: a pair as the cameras gave it in, the same pair with parallel rows out.
 #include "commands.h"
 #include "match_words.h"
-#include "process_bench.h"
+#include "output_folder.h"
 #include "rectify_rig.h"
+#include "take_picture.h"
 
 #include "dicot/os/clock.h"
 #include "dicot/picture/read_picture.h"
 #include "dicot/picture/write_picture.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <memory>
 #include <string>
-#include <sys/stat.h>
 
 namespace dicot::app {
 namespace {
@@ -36,19 +34,6 @@ Status check_size(const std::string& picture, const std::string& rig_path, const
         return failure(Fault::kBadData,
                        "%s is %d x %d px, and %s is for %d x %d: use the rig file of these cameras and this size",
                        picture.c_str(), size.width, size.height, rig_path.c_str(), rig.width, rig.height);
-    return {};
-}
-
-Status make_folder(const std::string& path)
-{
-    struct stat there
-    {
-    };
-    if (::stat(path.c_str(), &there) == 0 && S_ISDIR(there.st_mode))
-        return {};
-    if (::mkdir(path.c_str(), 0777) != 0)
-        return failure(Fault::kCannotCreate, "%s: cannot be created as a folder (%s): name another one", path.c_str(),
-                       std::strerror(errno));
     return {};
 }
 
@@ -84,7 +69,7 @@ Status run(const Words& words)
     RigFile rig = TRY(read_rig_file(words.rig.c_str()));
     TRY(check_size(words.left, words.rig, rig));
     TRY(check_size(words.right, words.rig, rig));
-    const RectifyTables tables = TRY(RectifyTables::make(rig, words.keep, words.rig.c_str()));
+    const RectifyTables tables = TRY(RectifyTables::load_or_build(rig, words.keep, words.rig.c_str()));
     const int width = rig.width;
     const int height = rig.height;
     const auto lay_out = [&](Arena& arena) {
@@ -131,15 +116,12 @@ Status run(const Words& words)
         return flat;
     }()));
 
-    const double pixels = static_cast<double>(width) * height;
     std::printf("%s: focal length %.3f px, principal point %.3f, %.3f px, baseline %.3f mm\n", words.folder.c_str(),
                 (*rig.left.projection)[0][0], (*rig.left.projection)[0][2], (*rig.left.projection)[1][2],
                 -(*rig.right.projection)[0][3] / (*rig.right.projection)[0][0]);
-    for (const auto& [side, table] : {std::pair{"left", &tables.left()}, std::pair{"right", &tables.right()}})
-        std::printf("%-5s table: cells of %d px, %.1f KiB, worst error %.5f px of %.5f allowed, %.2f %% of the pixels "
-                    "have a source\n",
-                    side, table->cell_px(), static_cast<double>(table->table_bytes()) / 1024, table->worst_error_px(),
-                    RemapTable::kMostErrorPx, 100 * static_cast<double>(table->pixels_with_source()) / pixels);
+    std::printf("tables: %s\n", tables.origin().c_str());
+    print_table("left", tables.left());
+    print_table("right", tables.right());
     std::printf("both pictures rectified in %.2f ms (%s)\n", remap_ms, kernels->name);
     return {};
 }

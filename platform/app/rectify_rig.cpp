@@ -1,8 +1,12 @@
 #include "rectify_rig.h"
 
+#include "stored_maps.h"
+
+#include "dicot/os/clock.h"
 #include "dicot/os/shown_path.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 namespace dicot::app {
@@ -69,30 +73,90 @@ void set_rectification(RigFile& rig, const Rectification& flat)
         {{1, 0, 0, -flat.cx_px}, {0, 1, 0, -flat.cy_px}, {0, 0, 0, f}, {0, 0, 1 / flat.baseline_mm, 0}}};
 }
 
-Result<RectifyTables> RectifyTables::make(RigFile& rig, double keep, const char* name)
+void print_table(const char* side, const RemapTable& table)
 {
-    const char* path = shown_path(name);
-    const StereoRig stereo = TRY(stereo_rig_of(rig, name));
-    const Rectification flat = TRY(rectify(stereo, keep, path));
+    const double pixels = static_cast<double>(table.width()) * table.height();
+    std::printf("%-5s table: cells of %d px, %.1f KiB, worst error %.5f px of %.5f allowed, %.2f %% of the pixels have "
+                "a source\n",
+                side, table.cell_px(), static_cast<double>(table.table_bytes()) / 1024, table.worst_error_px(),
+                RemapTable::kMostErrorPx, 100 * static_cast<double>(table.pixels_with_source()) / pixels);
+}
+
+namespace {
+
+struct Carved
+{
+    std::span<std::byte> maps;
+    std::span<RemapSpan> spans;
+};
+
+Carved carve(Arena& arena, int width, int height)
+{
+    const std::size_t each = RemapTable::most_bytes(width, height);
+    Carved carved;
+    carved.maps = arena.take<std::byte>(2 * each);
+    carved.spans = arena.take<RemapSpan>(static_cast<std::size_t>(width));
+    return carved;
+}
+
+Result<RigMaps> build_maps(const StereoRig& rig, const Rectification& flat, Arena arena, const char* name)
+{
+    const auto table_of = [&](const Lens& lens, const Turn& rectifying) {
+        return RemapTable::build(LensMap(lens, rectifying, flat.focal_px, flat.cx_px, flat.cy_px), rig.width,
+                                 rig.height, arena, name);
+    };
+    RigMaps maps;
+    maps.left = TRY(table_of(rig.left, flat.left_rectifying));
+    maps.right = TRY(table_of(rig.right, flat.right_rectifying));
+    return maps;
+}
+
+} // namespace
+
+std::size_t RectifyTables::reserved_bytes(int width, int height)
+{
     Arena measure;
-    const std::size_t each = RemapTable::most_bytes(rig.width, rig.height);
-    (void)measure.take<std::byte>(each);
-    (void)measure.take<std::byte>(each);
-    const auto most_spans = static_cast<std::size_t>(rig.width);
-    (void)measure.take<RemapSpan>(most_spans);
-    RectifyTables tables{TRY(MemoryBlock::map(measure.peak()))};
+    (void)carve(measure, width, height);
+    return measure.peak();
+}
+
+std::string RectifyTables::origin() const
+{
+    char text[64];
+    std::snprintf(text, sizeof text, " in %.1f ms", milliseconds_);
+    return (loaded_from_.empty() ? std::string("built") : "loaded from " + loaded_from_) + text;
+}
+
+Result<RectifyTables> RectifyTables::make(RigFile& rig, double keep, const char* rig_path, bool may_load)
+{
+    const char* name = shown_path(rig_path);
+    const std::int64_t start_us = monotonic_us();
+    const StereoRig stereo = TRY(stereo_rig_of(rig, rig_path));
+    const Rectification flat = TRY(rectify(stereo, keep, name));
+    RectifyTables tables{TRY(MemoryBlock::map(reserved_bytes(rig.width, rig.height)))};
     Arena arena(tables.block_.bytes());
-    tables.left_ =
-        TRY(RemapTable::build(LensMap(stereo.left, flat.left_rectifying, flat.focal_px, flat.cx_px, flat.cy_px),
-                              rig.width, rig.height, arena, path));
-    tables.right_ =
-        TRY(RemapTable::build(LensMap(stereo.right, flat.right_rectifying, flat.focal_px, flat.cx_px, flat.cy_px),
-                              rig.width, rig.height, arena, path));
-    tables.spans_ = arena.take<RemapSpan>(most_spans);
-    if (arena.overrun())
-        return failure(Fault::kSoftware, "%s: the memory for the rectification tables was measured too small", path);
+    const Carved carved = carve(arena, rig.width, rig.height);
+    tables.spans_ = carved.spans;
+    std::optional<RigMaps> loaded;
+    const std::string path = maps_path(rig_path);
+    if (may_load)
+        loaded = load_maps(path, stereo, keep, Arena{carved.maps}, name);
+    if (loaded)
+        tables.loaded_from_ = path;
+    tables.maps_ = loaded ? *loaded : TRY(build_maps(stereo, flat, Arena{carved.maps}, name));
     set_rectification(rig, flat);
+    tables.milliseconds_ = static_cast<double>(monotonic_us() - start_us) * 1e-3;
     return tables;
+}
+
+Result<RectifyTables> RectifyTables::build(RigFile& rig, double keep, const char* name)
+{
+    return make(rig, keep, name, false);
+}
+
+Result<RectifyTables> RectifyTables::load_or_build(RigFile& rig, double keep, const char* rig_path)
+{
+    return make(rig, keep, rig_path, true);
 }
 
 } // namespace dicot::app

@@ -10,6 +10,7 @@ void add_rig(CLI::App& program, Command& chosen)
     command->require_subcommand(1);
     add_rig_show(*command, chosen);
     add_rig_convert(*command, chosen);
+    add_rig_tables(*command, chosen);
 }
 
 } // namespace dicot::app

@@ -7,5 +7,6 @@ namespace dicot::app {
 
 void add_rig_show(CLI::App& rig, Command& chosen);
 void add_rig_convert(CLI::App& rig, Command& chosen);
+void add_rig_tables(CLI::App& rig, Command& chosen);
 
 } // namespace dicot::app

@@ -19,6 +19,37 @@ struct Words
     bool json = false;
 };
 
+nlohmann::json as_json(const RigQuality& quality)
+{
+    nlohmann::json json = {{"verdict", quality.verdict},
+                           {"pairs", quality.pairs},
+                           {"rms_px", quality.rms_px},
+                           {"epipolar_rms_px", quality.epipolar_rms_px},
+                           {"epipolar_p95_px", quality.epipolar_p95_px},
+                           {"held_out_mm", quality.held_out_mm},
+                           {"held_out_depth_mm", quality.held_out_depth_mm},
+                           {"nearest_mm", quality.nearest_mm},
+                           {"farthest_mm", quality.farthest_mm}};
+    for (std::size_t k = 0; k < RigQuality::kDepthsMm.size(); ++k)
+        json["depth_error"].push_back(
+            {{"distance_mm", RigQuality::kDepthsMm[k]}, {"calibration_mm", quality.depth_error_mm[k]}});
+    return json;
+}
+
+void print(const RigQuality& quality)
+{
+    std::printf(
+        "verdict: %s; %d pairs from %.0f to %.0f mm, RMS %.3f px; rows miss each other by %.3f px RMS, 95 %% by "
+        "less than %.3f px\n",
+        quality.verdict, quality.pairs, quality.nearest_mm, quality.farthest_mm, quality.rms_px,
+        quality.epipolar_rms_px, quality.epipolar_p95_px);
+    std::printf("held-out boards: shape off by %.2f mm, distance by %.2f mm; depth error to expect:",
+                quality.held_out_mm, quality.held_out_depth_mm);
+    for (std::size_t k = 0; k < RigQuality::kDepthsMm.size(); ++k)
+        std::printf("%s +- %.2f mm at %d mm", k == 0 ? "" : ",", quality.depth_error_mm[k], RigQuality::kDepthsMm[k]);
+    std::printf("\n");
+}
+
 /// `geometry` is null where the file does not tell how the cameras stand.
 nlohmann::json as_json(const RigFile& rig, const RigGeometry* geometry)
 {
@@ -49,6 +80,10 @@ nlohmann::json as_json(const RigFile& rig, const RigGeometry* geometry)
         report["near_mm"] = *rig.near_mm;
     if (rig.far_mm)
         report["far_mm"] = *rig.far_mm;
+    if (rig.calibrated_at[0] != '\0')
+        report["calibrated_at"] = rig.calibrated_at;
+    if (rig.quality)
+        report["quality"] = as_json(*rig.quality);
     return report;
 }
 
@@ -66,6 +101,12 @@ Status show(const Words& words)
                 describes_cameras(rig) ? "as the cameras give them"
                 : stands               ? "rectified already"
                                        : "cameras not related to each other");
+    if (rig.calibrated_at[0] != '\0')
+        std::printf("calibrated at %s\n", rig.calibrated_at);
+    if (rig.quality)
+        print(*rig.quality);
+    if (rig.near_mm && rig.far_mm)
+        std::printf("working range %.0f to %.0f mm\n", *rig.near_mm, *rig.far_mm);
     for (const auto& [side, camera] : {std::pair{"left", &rig.left}, std::pair{"right", &rig.right}}) {
         if (!camera->intrinsic)
             continue;

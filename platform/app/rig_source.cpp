@@ -2,11 +2,30 @@
 
 #include "rectify_rig.h"
 
+#include "dicot/os/shown_path.h"
+#include "dicot/rig/opencv_files.h"
 #include "dicot/rig/ros_files.h"
 
 #include <sys/stat.h>
 
 namespace dicot::app {
+
+namespace {
+
+Result<RigFile> read_any(const std::string& path, const RigHints& hints)
+{
+    if (!is_folder(path))
+        return read_rig_file(path.c_str(), hints);
+    if (holds_opencv_files(path))
+        return read_opencv_files(path, hints);
+    if (hints.width != 0 || hints.mm_per_unit != 0)
+        return failure(Fault::kUsage,
+                       "%s: camera_info says the size and the unit itself: leave --size and --unit-mm out",
+                       shown_path(path.c_str()));
+    return read_ros_files(path);
+}
+
+} // namespace
 
 bool is_folder(const std::string& path)
 {
@@ -16,9 +35,9 @@ bool is_folder(const std::string& path)
     return ::stat(path.c_str(), &there) == 0 && S_ISDIR(there.st_mode);
 }
 
-Result<RigFile> read_whole_rig(const std::string& path)
+Result<RigFile> read_whole_rig(const std::string& path, const RigHints& hints)
 {
-    RigFile rig = TRY(is_folder(path) ? read_ros_files(path) : read_rig_file(path.c_str()));
+    RigFile rig = TRY(read_any(path, hints));
     const bool rectified = rig.left.rectifying && rig.right.rectifying && rig.left.projection && rig.right.projection;
     if (!rectified && describes_cameras(rig)) {
         const StereoRig stereo = TRY(stereo_rig_of(rig, path.c_str()));

@@ -33,17 +33,32 @@ inline bool data_there(const std::string& inner)
     return false;
 }
 
-inline Result<BoardSight> sight_in(const std::string& path, const Board& board, int& width, int& height)
+struct GreyPicture
+{
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> pixels;
+
+    ImageView<std::uint8_t> view() { return {pixels.data(), width, height}; }
+};
+
+inline Result<GreyPicture> grey_picture(const std::string& path)
 {
     const PictureSize size = TRY(picture_size(path.c_str()));
     std::vector<Rgb8> colour(static_cast<std::size_t>(size.pixels()));
-    std::vector<std::uint8_t> grey(colour.size());
+    GreyPicture grey{size.width, size.height, std::vector<std::uint8_t>(colour.size())};
     const ImageView<Rgb8> view{colour.data(), size.width, size.height};
     TRY(read_picture(path.c_str(), view));
-    calibration::to_grey(view, {grey.data(), size.width, size.height});
-    width = size.width;
-    height = size.height;
-    return calibration::find_board({grey.data(), size.width, size.height}, board);
+    calibration::to_grey(view, grey.view());
+    return grey;
+}
+
+inline Result<BoardSight> sight_in(const std::string& path, const Board& board, int& width, int& height)
+{
+    GreyPicture grey = TRY(grey_picture(path));
+    width = grey.width;
+    height = grey.height;
+    return calibration::find_board(grey.view(), board);
 }
 
 struct PairSet
@@ -54,6 +69,13 @@ struct PairSet
     int first;
     int last;
     int missing = -1;
+
+    std::string path(std::size_t side, int number) const
+    {
+        char name[64];
+        std::snprintf(name, sizeof name, "/%s%s%02d.jpg", side == 0 ? "left" : "right", separator, number);
+        return data_path(folder) + name;
+    }
 };
 
 inline const PairSet kOpenCvPairs{"calibration-opencv", {9, 6, 30}, "", 1, 14, 10};
@@ -70,11 +92,10 @@ inline int add_pairs(const PairSet& set, CalibrationTask& task)
             continue;
         std::array<BoardSight, 2> sight;
         for (const std::size_t side : {0U, 1U}) {
-            char name[64];
-            std::snprintf(name, sizeof name, "/%s%s%02d.jpg", side == 0 ? "left" : "right", set.separator, number);
-            auto seen = sight_in(data_path(set.folder) + name, set.board, task.width, task.height);
+            const std::string path = set.path(side, number);
+            auto seen = sight_in(path, set.board, task.width, task.height);
             if (!seen.ok() || !seen.value().found) {
-                std::printf("%s%s: %s\n", set.folder, name,
+                std::printf("%s: %s\n", path.c_str(),
                             seen.ok() ? seen.value().reason.c_str() : seen.status().message());
                 ++missed;
                 continue;

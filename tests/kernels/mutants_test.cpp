@@ -177,6 +177,79 @@ TEST(KernelMutants, ReadingOneByteBeforeARowIsFoundOut)
     EXPECT_NE(std::string(verdict.fault).find("outside"), std::string::npos) << verdict.fault;
 }
 
+/// The law of remap_row with positions moved by `shift` before they are rounded.
+void remap_moved(std::uint8_t* rgb, int n, const RemapSpan* spans, int cell_log2, const RemapSource& source, int shift)
+{
+    for (int i = 0; i < n; ++i) {
+        const RemapSpan& span = spans[i >> cell_log2];
+        const int u = i & ((1 << cell_log2) - 1);
+        const RemapSpan moved{span.x + u * span.dx + shift, span.y + u * span.dy, 0, 0};
+        kScalarKernels.remap_row(rgb + 3 * i, 1, &moved, cell_log2, source);
+    }
+}
+
+TEST(KernelMutants, APositionCutOffInsteadOfRoundedIsFoundOut)
+{
+    Kernels mutant = law_called("cuts the position off");
+    mutant.remap_row = [](std::uint8_t* rgb, int n, const RemapSpan* spans, int cell_log2, const RemapSource& source) {
+        remap_moved(rgb, n, spans, cell_log2, source, -(1 << 8));
+    };
+    expect_found_out(mutant, "remap_row");
+}
+
+TEST(KernelMutants, APositionOffByOneOf65536OfAPixelIsFoundOut)
+{
+    Kernels mutant = law_called("off by one");
+    mutant.remap_row = [](std::uint8_t* rgb, int n, const RemapSpan* spans, int cell_log2, const RemapSource& source) {
+        remap_moved(rgb, n, spans, cell_log2, source, 1);
+    };
+    expect_found_out(mutant, "remap_row");
+}
+
+TEST(KernelMutants, ALastColumnTakenForOutsideIsFoundOut)
+{
+    Kernels mutant = law_called("loses a column");
+    mutant.remap_row = [](std::uint8_t* rgb, int n, const RemapSpan* spans, int cell_log2, const RemapSource& source) {
+        kScalarKernels.remap_row(rgb, n, spans, cell_log2, source);
+        for (int i = 0; i < n; ++i) {
+            const RemapSpan& span = spans[i >> cell_log2];
+            const int x = span.x + (i & ((1 << cell_log2) - 1)) * span.dx;
+            if ((x + (1 << 8)) >> 9 == 128 * (source.width - 1))
+                std::fill_n(rgb + 3 * i, 3, std::uint8_t{0});
+        }
+    };
+    expect_found_out(mutant, "remap_row");
+}
+
+TEST(KernelMutants, PixelsWithoutSourceThatAreNotClearedAreFoundOut)
+{
+    Kernels mutant = law_called("leaves gaps as they were");
+    mutant.remap_row = [](std::uint8_t* rgb, int n, const RemapSpan* spans, int cell_log2, const RemapSource& source) {
+        for (int i = 0; i < n; ++i) {
+            std::uint8_t pixel[3];
+            const RemapSpan& span = spans[i >> cell_log2];
+            const int u = i & ((1 << cell_log2) - 1);
+            const RemapSpan at{span.x + u * span.dx, span.y + u * span.dy, 0, 0};
+            kScalarKernels.remap_row(pixel, 1, &at, cell_log2, source);
+            if (((at.x + (1 << 8)) >> 9) >= 0)
+                std::copy_n(pixel, 3, rgb + 3 * i);
+        }
+    };
+    expect_found_out(mutant, "remap_row");
+}
+
+TEST(KernelMutants, ReadingOneByteBehindAPictureIsFoundOut)
+{
+    Kernels mutant = law_called("reads behind the picture");
+    mutant.remap_row = [](std::uint8_t* rgb, int n, const RemapSpan* spans, int cell_log2, const RemapSource& source) {
+        kScalarKernels.remap_row(rgb, n, spans, cell_log2, source);
+        if (n > 0)
+            read(source.rgb + (source.height - 1) * source.stride_bytes + 3 * source.width);
+    };
+    const Verdict verdict = verdict_of(mutant);
+    EXPECT_NE(std::string(verdict.fault).find("outside"), std::string::npos) << verdict.fault;
+}
+
 TEST(KernelMutants, ARareFaultIsFoundAgainFromItsSeed)
 {
     Kernels mutant = law_called("rarely wrong");

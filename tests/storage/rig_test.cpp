@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 #include <string>
+#include <utility>
 
 namespace dicot {
 namespace {
@@ -72,6 +74,63 @@ TEST(RigFile, SpellingsOfOpenCvsSamplesAreKnown)
     EXPECT_EQ(parsed("\xEF\xBB\xBF" + kHead).value().width, 640);
 }
 
+TEST(RigFile, OneCameraOfTheCalibrationSampleIsTheLeftOne)
+{
+    const RigFile rig = parsed("image_width: 640\nimage_height: 480\ncalibration_time: \"Sun Oct 11 17:02:00 2009\"\n" +
+                               matrix("camera_matrix", 3, 3, "535.9,0,342.3, 0,535.9,235.6, 0,0,1") +
+                               matrix("distortion_coefficients", 5, 1, "-0.27,-0.04,0.0018,-0.0003,0.24"))
+                            .value();
+    EXPECT_EQ((*rig.left.intrinsic)[1][2], 235.6);
+    EXPECT_EQ(rig.left.distortion->count, 5);
+    EXPECT_FALSE(rig.right.intrinsic || rig.right.distortion);
+    EXPECT_STREQ(rig.calibrated_at, "") << "somebody's local words are no time";
+}
+
+TEST(RigFile, ARotationVectorStandsForR)
+{
+    // A quarter turn about z; then a general one, worked out by the exponential series of its matrix in 60 digits.
+    const RigFile quarter = parsed(kHead + matrix("om", 3, 1, "0, 0, 1.5707963267948966")).value();
+    EXPECT_NEAR((*quarter.rotation)[0][1], -1, 1e-15);
+    EXPECT_NEAR((*quarter.rotation)[1][0], 1, 1e-15);
+    EXPECT_NEAR((*quarter.rotation)[0][0], 0, 1e-15);
+    EXPECT_NEAR((*quarter.rotation)[2][2], 1, 1e-15);
+    const RigFile general = parsed(kHead + matrix("om", 3, 1, "0.3, -2.5, 1.25")).value();
+    const Matrix<3, 3> expected = {{{-0.92373368784692356, -0.32895831408626303, -0.19622054308926445},
+                                    {-0.040398553980346273, 0.59309185034661871, -0.8041206463514794},
+                                    {0.38089897712256909, -0.73486630392605945, -0.56114836236153542}}};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+            EXPECT_NEAR((*general.rotation)[i][j], expected[i][j], 1e-14) << i << j;
+}
+
+TEST(RigFile, TimesAreSecondsThatExist)
+{
+    for (const char* time : {"2026-03-01T12:00:00Z", "2024-02-29T23:59:59Z", "1970-01-01T00:00:00Z"})
+        EXPECT_STREQ(parsed(kHead + "calibration_time: " + time + "\n").value().calibrated_at, time);
+    for (const char* time :
+         {"2026-02-29T12:00:00Z", "2026-13-01T12:00:00Z", "2026-00-01T12:00:00Z", "2026-04-31T12:00:00Z",
+          "2026-03-01T24:00:00Z", "2026-03-01T12:60:00Z", "2026-03-01 12:00:00", "2026-03-01T12:00:00+01:00"})
+        EXPECT_NE(std::strstr(parsed(kHead + "calibration_time: " + time + "\n").status().message(),
+                              "calibration_time must be a time in UTC"),
+                  nullptr)
+            << time;
+}
+
+TEST(RigFile, HintsFillWhatTheFileLeavesOpenAndMayNotContradictIt)
+{
+    const test::TempFolder folder;
+    const std::string bare = folder.write("bare.yaml", "%YAML:1.0\n---\n" + matrix("T", 3, 1, "-2, 0, 0.5"));
+    const RigFile rig = read_rig_file(bare.c_str(), {640, 480, 30}).value();
+    EXPECT_EQ(rig.width, 640);
+    EXPECT_EQ(rig.height, 480);
+    EXPECT_EQ(*rig.translation_mm, (std::array<double, 3>{-60, 0, 15}));
+    EXPECT_NE(std::strstr(read_rig_file(bare.c_str()).status().message(), "--size"), nullptr);
+    const std::string whole = folder.write("whole.yaml", kHead + "unit: m\n");
+    EXPECT_TRUE(read_rig_file(whole.c_str(), {640, 480, 1000}).ok());
+    EXPECT_NE(std::strstr(read_rig_file(whole.c_str(), {320, 240, 0}).status().message(), "320 x 240"), nullptr);
+    EXPECT_NE(std::strstr(read_rig_file(whole.c_str(), {0, 0, 1}).status().message(), "unit has 1000 mm"), nullptr);
+}
+
 TEST(RigFile, FilesOfTheRenderedRigAreRead)
 {
     const std::string path = std::string{DICOT_DATA_DIR} + "/rig-dev/growth/gt_calib.yml";
@@ -114,6 +173,8 @@ TEST(RigFile, WhatIsWrittenIsReadAgainToTheLastBit)
     rig.translation_mm = {-84.985154252604417, 1.0 / 7, -1e-9};
     rig.near_mm = 300.1;
     rig.far_mm = 1200;
+    std::strcpy(rig.calibrated_at, "2024-02-29T23:59:59Z");
+    rig.quality = RigQuality{"usable", 13, 0.1, 1.0 / 3, 1e-300, 0, 2.5, {5e-324, 7, 8}, 400.25, 1.0 / 7 + 1000};
 
     const test::TempFolder folder;
     const std::string path = folder.path("rig.yaml");
@@ -121,6 +182,23 @@ TEST(RigFile, WhatIsWrittenIsReadAgainToTheLastBit)
     const Result<RigFile> read = read_rig_file(path.c_str());
     ASSERT_TRUE(read.ok()) << read.status().message();
     EXPECT_EQ(read.value(), rig);
+    EXPECT_EQ(folder.files(), 1U);
+}
+
+TEST(RigFile, ANumberThatIsNotFiniteIsNeverWritten)
+{
+    const test::TempFolder folder;
+    const std::string path = folder.write("rig.yaml", std::string("yesterday's"));
+    RigFile rig;
+    rig.width = rig.height = 8;
+    rig.quality.emplace().held_out_mm = std::numeric_limits<double>::quiet_NaN();
+    const Status status = write_rig_file(path.c_str(), rig);
+    EXPECT_EQ(status.fault(), Fault::kBadData);
+    EXPECT_NE(std::strstr(status.message(), "held_out_mm is not finite"), nullptr) << status.message();
+    rig.quality.reset();
+    rig.right.intrinsic.emplace()[1][2] = std::numeric_limits<double>::infinity();
+    EXPECT_NE(std::strstr(write_rig_file(path.c_str(), rig).message(), "K2 is not finite"), nullptr);
+    EXPECT_EQ(test::bytes_of(path).size(), std::strlen("yesterday's"));
     EXPECT_EQ(folder.files(), 1U);
 }
 
@@ -165,6 +243,26 @@ std::string with(const std::string& extra)
     return kHead + extra + kP1 + kP2;
 }
 
+/// A quality with one value of its own.
+std::string quality(const std::string& key, const std::string& value)
+{
+    std::string text = "quality:\n";
+    for (const auto& [known, usual] : {std::pair{"verdict", "good"},
+                                       {"pairs", "13"},
+                                       {"rms_px", "0.2"},
+                                       {"epipolar_rms_px", "0.1"},
+                                       {"epipolar_p95_px", "0.2"},
+                                       {"held_out_mm", "0.3"},
+                                       {"held_out_depth_mm", "1"},
+                                       {"depth_error_at_500mm_mm", "1"},
+                                       {"depth_error_at_800mm_mm", "2"},
+                                       {"depth_error_at_1000mm_mm", "3"},
+                                       {"nearest_mm", "400"},
+                                       {"farthest_mm", "900"}})
+        text += std::string{"   "} + known + ": " + (key == known ? value : usual) + "\n";
+    return text;
+}
+
 const Refusal kRefusals[] = {
     {"Empty", "", "no rig's description"},
     {"HeaderOnly", "%YAML:1.0", "no rig's description"},
@@ -201,6 +299,21 @@ const Refusal kRefusals[] = {
     {"NegativeNear", with("near_mm: -1\n"), "above 0"},
     {"LongId", with("id: \"" + std::string(65, 'x') + "\"\n"), "id must be one word"},
     {"StrangeId", with("id: \"a\\\"b\"\n"), "id must be one word"},
+    {"QualityIsNoMap", with("quality: 3\n"), "quality must be a map"},
+    {"QualityCutShort", with("quality:\n   verdict: good\n   pairs: 13\n"), "quality must be whole"},
+    {"QualityNan", with(quality("held_out_depth_mm", ".nan")), "held_out_depth_mm must be a finite number"},
+    {"QualityInfinite", with(quality("depth_error_at_800mm_mm", "1e999")), "depth_error_at_800mm_mm must be a finite"},
+    {"QualityNegative", with(quality("rms_px", "-0.1")), "rms_px must be 0 or more"},
+    {"QualityVerdict", with(quality("verdict", "splendid")), "verdict must be good, usable or redo"},
+    {"QualityTwice", with(quality("pairs", "7\n   pairs: 7")), "pairs must be there once only"},
+    {"QualityRange", with(quality("farthest_mm", "1")), "farthest_mm must not be below nearest_mm"},
+    {"NanNear", with("near_mm: .Nan\n"), "near_mm must be a finite number"},
+    {"OverflowInMillimetres", with("unit: m\n" + matrix("T", 3, 1, "-1e306, 0, 0")), "in T is too large"},
+    {"UnitTwice", with("unit: mm\nunit: mm\n"), "unit must be there once only"},
+    {"RAndOm", with(matrix("R", 3, 3, "1,0,0, 0,1,0, 0,0,1") + matrix("om", 3, 1, "0,0,0")), "without R"},
+    {"OmAndR", with(matrix("om", 3, 1, "0,0,0") + matrix("R", 3, 3, "1,0,0, 0,1,0, 0,0,1")),
+     "R must be there once only"},
+    {"LongOm", with(matrix("om", 3, 1, "0,3,3")), "half a circle at most"},
     {"SwappedCameras", kHead + kP1 + matrix("P2", 3, 4, "500,0,320,30000, 0,500,240,0, 0,0,1,0"), "swapped"},
     {"CamerasAboveEachOther", kHead + kP1 + matrix("P2", 3, 4, "500,0,320,0, 0,500,240,-30000, 0,0,1,0"),
      "above each other"},

@@ -95,6 +95,9 @@ struct Scene
     double blur_px = 0.7;
     double noise = 2;     ///< standard deviation in grey levels
     double dark_part = 1; ///< light in the left third of the picture, against the rest; the border is soft
+    double shadow = 1;    ///< light below a slanting line, against the rest; the edge is as sharp as the picture
+    double light = 1;     ///< on everything, before the noise
+    int spots = 0;        ///< of dirt, up to 3 px wide
     double glare = 0;     ///< grey levels added in the middle of a soft spot
     Point2 glare_at{0, 0};
     double glare_px = 60; ///< radius of the spot
@@ -157,9 +160,19 @@ inline Photo photograph(const Scene& s)
             for (int k = 0; k < 25; ++k)
                 sum += shade_of(s, x + (k % 5 + jitter(random)) / 5 - 0.5, y + (k / 5 + jitter(random)) / 5 - 0.5) / 25;
             sum *= s.dark_part + (1 - s.dark_part) / (1 + std::exp(-(x - s.width / 3.0) / 8));
+            if (y > 0.3 * s.height + 0.35 * x)
+                sum *= s.shadow;
+            sum *= s.light;
             const double r2 = (x - s.glare_at.x) * (x - s.glare_at.x) + (y - s.glare_at.y) * (y - s.glare_at.y);
             light[at(x, y)] = sum + s.glare * std::exp(-0.5 * r2 / (s.glare_px * s.glare_px));
         }
+    for (int k = 0; k < s.spots; ++k) {
+        const int x = static_cast<int>(jitter(random) * (s.width - 3)),
+                  y = static_cast<int>(jitter(random) * (s.height - 3));
+        const double tone = 255 * jitter(random);
+        for (int dy = 0; dy < 3; ++dy)
+            std::fill_n(light.begin() + static_cast<std::ptrdiff_t>(at(x, y + dy)), 1 + k % 3, tone);
+    }
     const int reach = static_cast<int>(std::ceil(3 * s.blur_px));
     std::vector<double> half(light.size());
     const auto blurred = [&](const std::vector<double>& from, int x, int y, int dx, int dy) {

@@ -2,9 +2,10 @@
 # Builds dicot for aarch64 and armhf, proves its kernels there under qemu-user, and checks that the files it writes are
 # byte for byte those of the native program.
 #
-#   cross_test.sh NATIVE_DICOT [LEFT RIGHT]
+#   cross_test.sh NATIVE_DICOT [LEFT RIGHT [BOARDS]]
 #
-# The pair that is always matched is made here; LEFT and RIGHT are a real one (JPEG or PNG) to be matched as well.
+# The pair that is always matched is made here; LEFT and RIGHT are a real one (JPEG or PNG) to be matched as well, BOARDS is
+# a folder of pictures of OpenCV's chessboard, left01.jpg and right01.jpg onwards; empty words are left out.
 # The cross builds stay in .build/arm64 and .build/armhf, the sysroots in .cache.
 set -eu
 LC_ALL=C
@@ -13,6 +14,7 @@ export LC_ALL
 native=${1:?cross_test.sh: name the native dicot program}
 left=${2:-}
 right=${3:-}
+boards=${4:-}
 checkout=$(cd "$(dirname "$0")/../.." && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -82,6 +84,8 @@ P2: !!opencv-matrix
    data: [ 400., 0., 79.5, -24000., 0., 400., 47.5, 0., 0., 0., 1., 0. ]
 RIG
 
+raw_rig=$checkout/tests/fuzz/corpus/rig/unrectified.yaml # two webcams of 1280 x 720 px
+
 # Everything that is compared, written into one folder by `program` (a command line).
 write_all() { # program, folder
     mkdir -p "$2"
@@ -91,10 +95,22 @@ write_all() { # program, folder
             >/dev/null
     done
     $1 process "$work/left.ppm" "$work/right.ppm" --rig "$work/rig.yaml" -o "$2/cloud.drc" --ply "$2/cloud.ply" >/dev/null
+    for keep in 0 1; do
+        $1 rig tables "$raw_rig" --keep $keep -o "$2/keep-$keep.maps" >/dev/null
+    done
     if [ -n "$right" ]; then
         $1 match "$left" "$right" -o "$2/real.pfm" --disparities 64 --window 9 >/dev/null
     fi
+    if [ -n "$boards" ]; then
+        SOURCE_DATE_EPOCH=1767225600 $1 calibrate --images "$work/boards" --corners 9x6 --square-mm 30 --force \
+            -o "$2/webcams.yaml" >/dev/null
+    fi
 }
+if [ -n "$boards" ]; then
+    mkdir "$work/boards"
+    # Seven pairs: emulated, each takes seconds.
+    cp "$boards"/left0[1-7].jpg "$boards"/right0[1-7].jpg "$work/boards"
+fi
 write_all "$native" "$work/native"
 for file in "$work"/native/*; do
     # Files of nothing but gaps would be equal too.

@@ -3,11 +3,16 @@
 #include "temp_folder.h"
 #include "tool.h"
 
+#include "dicot/codec/encode_cloud.h"
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
 #include <cstdio>
+#include <random>
 #include <string>
+#include <vector>
 
 namespace dicot {
 namespace {
@@ -93,6 +98,69 @@ TEST(Memory, ThePredictionHoldsWithinTenPercentAtTheFullWindow)
     if (!measurable("Memory.ThePredictionHoldsWithinTenPercentAtTheFullWindow"))
         return;
     compare(kWebcam, 35, 2, "map.png");
+}
+
+/// One side of a pair whose every pixel has a partner `shift` px further left.
+std::string textured_ppm(const test::TempFolder& folder, const char* name, const Case& size, int shift)
+{
+    const std::string head = "P6 " + std::to_string(size.width) + " " + std::to_string(size.height) + " 255\n";
+    test::Bytes file(head.begin(), head.end());
+    std::mt19937 random{7};
+    std::vector<std::uint8_t> noise(static_cast<std::size_t>(size.width + 64) * 3);
+    for (int y = 0; y < size.height; ++y) {
+        for (std::uint8_t& value : noise)
+            value = static_cast<std::uint8_t>(random());
+        file.insert(file.end(), noise.begin() + 3 * shift, noise.begin() + 3 * (shift + size.width));
+    }
+    return folder.write(name, file);
+}
+
+/// Parallel cameras without distortion, as the cameras give their pictures: 500 * 60 / 20 = 1500 mm.
+std::string raw_rig(const test::TempFolder& folder, const Case& size)
+{
+    const auto matrix = [](const char* name, int columns, const std::string& data) {
+        return std::string(name) + ": !!opencv-matrix\n   rows: 3\n   cols: " + std::to_string(columns) +
+               "\n   dt: d\n   data: [ " + data + " ]\n";
+    };
+    const std::string k = "500., 0., " + std::to_string((size.width - 1) / 2.0) + ", 0., 500., " +
+                          std::to_string((size.height - 1) / 2.0) + ", 0., 0., 1.";
+    return folder.write("rig.yaml", "%YAML:1.0\n---\nimage_width: " + std::to_string(size.width) +
+                                        "\nimage_height: " + std::to_string(size.height) +
+                                        "\nnear_mm: 1000\nfar_mm: 3000\n" + matrix("K1", 3, k) + matrix("K2", 3, k) +
+                                        matrix("R", 3, "1., 0., 0., 0., 1., 0., 0., 0., 1.") +
+                                        matrix("T", 1, "-60., 0., 0."));
+}
+
+TEST(Memory, ProcessOfARawPairThatFillsTheCloudStaysWithinItsPrediction)
+{
+    if (!measurable("Memory.ProcessOfARawPairThatFillsTheCloudStaysWithinItsPrediction"))
+        return;
+    for (const Case& size : {kWebcam, kWide}) {
+        const test::TempFolder folder;
+        const std::string pair =
+            textured_ppm(folder, "left.ppm", size, 0) + " " + textured_ppm(folder, "right.ppm", size, 20);
+        const auto report = report_of("process " + pair + " --rig " + raw_rig(folder, size) + " -o " +
+                                      folder.path("cloud.drc") + " --window 5 --threads 2");
+        ASSERT_TRUE(report.contains("points"));
+        EXPECT_EQ(report["rectified"], true);
+        const double filled = report["points"].get<double>() / (static_cast<double>(size.width) * size.height);
+        EXPECT_GT(filled, 0.95) << "the cloud is not full";
+        const double predicted = predicted_bytes({size.width, size.height, report["disparities"], 0},
+                                                 " --window 5 --threads 2", "process_total_bytes");
+        const double real = report["peak_memory_bytes"];
+        const double compressor = report["compressor_peak_bytes"];
+        // The compressor is lent what the worst cloud needs, and touches less of it for a wall.
+        const auto lent = static_cast<double>(
+            encode_heap_bytes(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height)));
+        const double for_this_cloud = predicted - lent + compressor;
+        std::printf(
+            "process, raw, %d x %d, %.1f %% of the pixels are points: at most %.1f MiB, for this cloud %.1f MiB, "
+            "real %.1f MiB\n",
+            size.width, size.height, 100 * filled, predicted / kMiB, for_this_cloud / kMiB, real / kMiB);
+        EXPECT_GE(lent, compressor);
+        EXPECT_GE(for_this_cloud, real) << "a prediction that is too low is a promise broken in the field";
+        EXPECT_LE(for_this_cloud, 1.1 * real);
+    }
 }
 
 TEST(Memory, TheBudgetsHoldAtTheFullWindow)

@@ -1,4 +1,5 @@
 // The program itself: a pair in, a cloud out.
+#include "ply_points.h"
 #include "temp_folder.h"
 #include "tool.h"
 
@@ -6,9 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <random>
 #include <string>
@@ -78,22 +77,6 @@ struct Wall
     }
 };
 
-/// x, y, z of each vertex of a PLY of ours, in mm.
-std::vector<std::array<double, 3>> vertices_mm(const std::string& path)
-{
-    const Bytes file = test::bytes_of(path);
-    const std::string mark = "end_header\n";
-    auto at = std::search(file.begin(), file.end(), mark.begin(), mark.end());
-    EXPECT_NE(at, file.end());
-    std::vector<std::array<double, 3>> vertices;
-    for (at += static_cast<std::ptrdiff_t>(mark.size()); file.end() - at >= 19; at += 19) {
-        float metres[3];
-        std::memcpy(metres, &*at, sizeof metres);
-        vertices.push_back({metres[0] * 1e3, metres[1] * 1e3, metres[2] * 1e3});
-    }
-    return vertices;
-}
-
 TEST(Process, AWallStandsWhereTheGeometrySaysItStands)
 {
     const Wall wall;
@@ -102,7 +85,7 @@ TEST(Process, AWallStandsWhereTheGeometrySaysItStands)
     const auto report = nlohmann::json::parse(run.output);
     EXPECT_EQ(report["min_disparity_px"], 10);
     EXPECT_EQ(report["disparities"], 21);
-    const auto vertices = vertices_mm(wall.folder.path("cloud.ply"));
+    const auto vertices = test::ply_points_mm(wall.folder.path("cloud.ply"));
     EXPECT_EQ(report["points"], vertices.size());
     EXPECT_EQ(report["proof"]["points"], vertices.size());
     EXPECT_LT(report["proof"]["worst_error_um"], 1.0);

@@ -1,5 +1,6 @@
 #include "dicot/base/arena.h"
 #include "dicot/base/cloud.h"
+#include "dicot/base/crc32.h"
 #include "dicot/base/disparity.h"
 #include "dicot/base/exact_math.h"
 #include "dicot/base/status.h"
@@ -9,6 +10,8 @@
 
 #include <array>
 #include <cmath>
+#include <span>
+#include <string_view>
 
 namespace dicot {
 namespace {
@@ -63,6 +66,18 @@ TEST(Status, TryPassesTheValueOnAndTheFaultUp)
     EXPECT_FALSE(failed.ok());
     EXPECT_EQ(failed.status().exit_code(), 66);
     EXPECT_STREQ(failed.status().message(), "left.png: no such file");
+}
+
+TEST(Crc32, TheCheckValueOfTheCatalogueAndEveryLength)
+{
+    const auto crc_of = [](std::string_view text) { return crc32(std::as_bytes(std::span{text})); };
+    EXPECT_EQ(crc_of("123456789"), 0xCBF43926u);
+    EXPECT_EQ(crc_of(""), 0u);
+    // From zlib.
+    EXPECT_EQ(crc_of("a"), 0xE8B7BE43u);
+    EXPECT_EQ(crc_of("abc"), 0x352441C2u);
+    EXPECT_EQ(crc_of("abcd"), 0xED82CD11u);
+    EXPECT_EQ(crc_of("abcde"), 0x8587D865u);
 }
 
 TEST(Crew, AloneRunsEveryTaskOnceInOrder)

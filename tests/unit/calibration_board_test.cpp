@@ -93,6 +93,33 @@ TEST(FindBoard, SeesPartlyDarkBoards)
     expect_found(scene, 1.2, "left third dark"); // the border of the shadow bends the corners that it passes
 }
 
+TEST(FindBoard, SeesBoardsUnderTheEdgeOfAShadow)
+{
+    Scene scene;
+    scene.shadow = 0.35;
+    for (const double tilt : {-20.0, 0.0, 20.0}) {
+        scene.place = {turn_about(10, tilt, -5), {0, 0, 520}};
+        expect_found(scene, 4.5, "hard shadow across the board"); // a corner right on its edge moves
+    }
+}
+
+TEST(FindBoard, SeesBoardsInDimLight)
+{
+    Scene scene;
+    scene.place = {turn_about(10, 20, -5), {0, 0, 520}};
+    scene.light = 0.08; // 15 grey levels between black and white
+    scene.noise = 1.5;
+    expect_found(scene, 0.6, "a twelfth of the light");
+}
+
+TEST(FindBoard, IsNotMovedByDirt)
+{
+    Scene scene;
+    scene.place = {turn_about(10, -20, 4), {0, 0, 500}};
+    scene.spots = 400;
+    expect_found(scene, 0.8, "400 spots");
+}
+
 TEST(FindBoard, SeesBoardsInGlare)
 {
     Scene scene;

@@ -53,6 +53,23 @@ TEST_F(OutputFileTest, CommittedFileHoldsEveryByteAndNothingElseIsLeft)
     EXPECT_EQ(folder_.files(), 1U);
 }
 
+TEST_F(OutputFileTest, SyncedFileIsStillOutOfSightAndMayGrow)
+{
+    const std::string path = folder_.path("left.yaml");
+    const test::Bytes bytes = pattern(100);
+    ASSERT_TRUE(file_.open(path.c_str()).ok());
+    ASSERT_TRUE(file_.write(bytes.data(), 60).ok());
+    ASSERT_TRUE(file_.sync().ok());
+    EXPECT_FALSE(std::filesystem::exists(path));
+    ASSERT_TRUE(file_.write(bytes.data() + 60, 40).ok());
+    ASSERT_TRUE(file_.commit().ok());
+    EXPECT_EQ(test::bytes_of(path), bytes);
+    OutputFile full;
+    ASSERT_TRUE(full.open("/dev/full").ok());
+    ASSERT_TRUE(full.write(bytes.data(), bytes.size()).ok());
+    EXPECT_EQ(full.sync().fault(), Fault::kIoError);
+}
+
 TEST_F(OutputFileTest, LetGoWithoutCommitLeavesTheFolderAsItWas)
 {
     const std::string path = folder_.write("cloud.drc", std::string("yesterday's"));

@@ -1,10 +1,10 @@
 #include "dicot/calibration/board.h"
 
 #include "corner_grid.h"
-#include "crossing.h"
 #include "grey_level.h"
 #include "lattice.h"
 #include "miss.h"
+#include "refine_grid.h"
 #include "saddle.h"
 
 #include <algorithm>
@@ -19,13 +19,6 @@ constexpr double kRefineSigma_px = 1.0;
 constexpr std::size_t kMostSaddles = 2500;
 constexpr int kFirstLevelSide_px = 1600;
 constexpr int kLastLevelSide_px = 160;
-constexpr double kWindow = 0.75;         // half window over a square's side, where squares lie on both sides
-constexpr double kLeastRimWindow = 0.25; // towards the rim of the board, whose squares may be narrow
-constexpr double kSmear_px = 3;          // kept clear of the rim, for the edge there is not sharp
-constexpr double kMinHalfWindow_px = 2.0;
-constexpr double kMaxHalfWindow_px = 28; // on the level where the board was found
-constexpr double kMaxMove = 0.3;         // of a square, from the lattice to the refined corner
-constexpr double kMaxBend = 0.12;        // of a square, between a corner and the middle of its neighbours
 
 struct LevelSearch
 {
@@ -65,82 +58,6 @@ LevelSearch search_level(ImageView<const std::uint8_t> grey, const Board& board)
     if (!lattices.empty())
         result.best = std::move(lattices.front());
     return result;
-}
-
-/// How far the edge that leaves `at` along `outwards` (one square's step) goes on, as a share of the step: the squares
-/// at the rim of a board may be narrow. `across` is the step along the other edge.
-double rim_share(const GreyLevel& level, Point2 at, Point2 outwards, Point2 across)
-{
-    constexpr int kProbes = 20;
-    constexpr double kReference = 0.2;
-    constexpr double kStillEdge = 0.5; // of the contrast at the reference
-    const auto contrast = [&](double share) {
-        const Point2 p = at + share * outwards + 0.22 * across;
-        const Point2 q = at + share * outwards - 0.22 * across;
-        return static_cast<double>(level.sample(p.x, p.y) - level.sample(q.x, q.y));
-    };
-    const double needed = kStillEdge * contrast(kReference);
-    for (int k = 1; k <= kProbes; ++k) {
-        const double share = kReference + (1 - kReference) * k / kProbes;
-        const Point2 p = at + share * outwards;
-        if (!level.contains(p.x, p.y, 1) || (needed > 0 ? contrast(share) < needed : contrast(share) > needed))
-            return share - (1 - kReference) / kProbes;
-    }
-    return 1;
-}
-
-Point2 half_window(Point2 step, double share, double scale)
-{
-    const double side = length(step);
-    const double half = std::clamp(share * side, kMinHalfWindow_px, kMaxHalfWindow_px * scale);
-    return (half / side) * step;
-}
-
-bool refine(const GreyLevel& level, double scale, CornerGrid& grid)
-{
-    std::vector<Point2> refined;
-    for (int row = 0; row < grid.rows; ++row)
-        for (int col = 0; col < grid.cols; ++col) {
-            const Point2 at = grid.at(col, row);
-            const Point2 x_step = grid.x_step(col, row);
-            const Point2 y_step = grid.y_step(col, row);
-            const auto share = [&](int position, int count, Point2 along, Point2 across) {
-                if (position > 0 && position + 1 < count)
-                    return kWindow;
-                const Point2 outwards = (position == 0 ? -1.0 : 1.0) * along;
-                const double clear = kSmear_px * scale / length(along);
-                return std::clamp(rim_share(level, at, outwards, across) - clear, kLeastRimWindow, kWindow);
-            };
-            const double max_move = std::max(1.5, kMaxMove * std::min(length(x_step), length(y_step)));
-            const std::optional<Point2> exact =
-                refine_crossing(level, at, half_window(x_step, share(col, grid.cols, x_step, y_step), scale),
-                                half_window(y_step, share(row, grid.rows, y_step, x_step), scale), max_move);
-            if (!exact)
-                return false;
-            refined.push_back(*exact);
-        }
-    grid.corners = std::move(refined);
-    return true;
-}
-
-/// Rows and columns of a board bend by little: a corner far from its neighbours' middle is none.
-bool lies_straight(const CornerGrid& grid)
-{
-    for (int row = 0; row < grid.rows; ++row)
-        for (int col = 0; col < grid.cols; ++col) {
-            const Point2 at = grid.at(col, row);
-            if (col > 0 && col + 1 < grid.cols) {
-                const Point2 bend = 0.5 * (grid.at(col - 1, row) + grid.at(col + 1, row)) - at;
-                if (length(bend) > kMaxBend * length(grid.x_step(col, row)))
-                    return false;
-            }
-            if (row > 0 && row + 1 < grid.rows) {
-                const Point2 bend = 0.5 * (grid.at(col, row - 1) + grid.at(col, row + 1)) - at;
-                if (length(bend) > kMaxBend * length(grid.y_step(col, row)))
-                    return false;
-            }
-        }
-    return true;
 }
 
 /// Levels in the order in which they are searched: the finest of a handy size, coarser ones, then finer ones.
@@ -193,11 +110,11 @@ Status check_board(const Board& board)
     return {};
 }
 
-BoardSight find_board(ImageView<const std::uint8_t> grey, const Board& board)
-{
-    if (std::string reason = explain_picture(grey); !reason.empty())
-        return unseen(std::move(reason));
+namespace {
 
+/// Looks through the levels; what came nearest when none shows the whole board.
+BoardSight search(ImageView<const std::uint8_t> grey, const Board& board)
+{
     LevelSearch nearest;
     bool blurred = false;
     for (const int level : level_order(grey.width, grey.height)) {
@@ -210,7 +127,7 @@ BoardSight find_board(ImageView<const std::uint8_t> grey, const Board& board)
             CornerGrid grid = upright(std::move(*search.grid), board);
             for (Point2& corner : grid.corners)
                 corner = {scale * (corner.x + 0.5) - 0.5, scale * (corner.y + 0.5) - 0.5};
-            if (refine(smooth(grey, kRefineSigma_px * std::sqrt(scale)), scale, grid) && lies_straight(grid))
+            if (refine_grid(smooth(grey, kRefineSigma_px * std::sqrt(scale)), scale, grid))
                 return as_sight(std::move(grid));
             blurred = true;
         }
@@ -220,6 +137,19 @@ BoardSight find_board(ImageView<const std::uint8_t> grey, const Board& board)
     if (blurred)
         return unseen("the board is there, but its corners are too blurred to be measured");
     return unseen(explain_miss(nearest.best, nearest.larger_board, board, nearest.width, nearest.height));
+}
+
+} // namespace
+
+BoardSight find_board(ImageView<const std::uint8_t> grey, const Board& board)
+{
+    if (std::string reason = explain_picture(grey); !reason.empty())
+        return unseen(std::move(reason));
+    BoardSight sight = search(grey, board);
+    if (!sight.found)
+        if (BoardSight again = search(relit(grey, grey_range(grey)).view(), board); again.found)
+            return again;
+    return sight;
 }
 
 Status agree_on_order(const Board& board, const BoardSight& left, BoardSight& right)

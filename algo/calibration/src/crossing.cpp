@@ -9,6 +9,10 @@ namespace {
 
 constexpr int kMaxSteps = 40;
 constexpr double kSettled_px = 1e-3;
+constexpr int kPlainSteps = 4;           // before edges that miss the crossing count less
+constexpr double kNarrow = 0.35;         // of the window: an edge that passes so far off counts a quarter
+constexpr double kClose = 0.12;          // the same where only edges close by may count
+constexpr double kSharp_px = 3;          // no edge is sharper than that after smoothing: none is narrower
 constexpr double kMinEdgeBalance = 0.01; // smaller against larger eigenvalue of the gradients' spread, squared scale
 
 struct Normal
@@ -43,7 +47,8 @@ void for_each_gradient(const GreyLevel& level, Point2 centre, Point2 half_u, Poi
     }
 }
 
-Normal gather(const GreyLevel& level, Point2 centre, Point2 half_u, Point2 half_v)
+/// `narrow_px` > 0: edges that pass the centre farther off, a shadow's for example, count less and less.
+Normal gather(const GreyLevel& level, Point2 centre, Point2 half_u, Point2 half_v, double narrow_px)
 {
     Point2 light{};
     double weights = 0;
@@ -56,6 +61,11 @@ Normal gather(const GreyLevel& level, Point2 centre, Point2 half_u, Point2 half_
     Normal sum;
     for_each_gradient(level, centre, half_u, half_v, [&](Point2 off, Point2 gradient, double w) {
         const Point2 g = gradient - light;
+        if (narrow_px > 0) {
+            const double off_px2 = dot(g, off) * dot(g, off) / std::max(dot(g, g), 1e-12);
+            const double ease = 1 / (1 + off_px2 / (narrow_px * narrow_px));
+            w *= ease * ease;
+        }
         sum.xx += w * g.x * g.x;
         sum.xy += w * g.x * g.y;
         sum.yy += w * g.y * g.y;
@@ -68,7 +78,7 @@ Normal gather(const GreyLevel& level, Point2 centre, Point2 half_u, Point2 half_
 } // namespace
 
 std::optional<Point2> refine_crossing(const GreyLevel& level, Point2 start, Point2 half_u, Point2 half_v,
-                                      double max_move_px)
+                                      double max_move_px, Edges edges)
 {
     // A window that the picture's border cuts off is no longer centred on the crossing.
     const double reach_x = std::abs(half_u.x) + std::abs(half_v.x);
@@ -81,8 +91,11 @@ std::optional<Point2> refine_crossing(const GreyLevel& level, Point2 start, Poin
     if (!(fit > 0 && std::abs(cross(half_u, half_v)) >= 1.0))
         return std::nullopt;
     Point2 at = start;
+    const bool close = edges == Edges::kCloseBy;
+    const int plain_steps = close ? 0 : kPlainSteps;
+    const double narrow_px = std::max(kSharp_px, (close ? kClose : kNarrow) * std::min(length(half_u), length(half_v)));
     for (int step = 0; step < kMaxSteps; ++step) {
-        const Normal n = gather(level, at, half_u, half_v);
+        const Normal n = gather(level, at, half_u, half_v, step < plain_steps ? 0 : narrow_px);
         const double determinant = n.xx * n.yy - n.xy * n.xy;
         const double trace = n.xx + n.yy;
         if (!(determinant > kMinEdgeBalance * trace * trace))
@@ -91,7 +104,7 @@ std::optional<Point2> refine_crossing(const GreyLevel& level, Point2 start, Poin
         at = at + move;
         if (!(length(at - start) <= max_move_px))
             return std::nullopt;
-        if (length(move) < kSettled_px)
+        if (step >= plain_steps && length(move) < kSettled_px)
             break;
     }
     return at;

@@ -3,6 +3,7 @@
 #include "dicot/base/exact_math.h"
 
 #include <algorithm>
+#include <array>
 
 namespace dicot::calibration {
 
@@ -67,6 +68,44 @@ GreyLevel smooth(ImageView<const std::uint8_t> grey, double sigma_px)
                 out[x] += kernel[k] * column[x + k];
     }
     return level;
+}
+
+GreyRange grey_range(ImageView<const std::uint8_t> grey)
+{
+    std::array<std::int64_t, 256> histogram{};
+    for (int y = 0; y < grey.height; ++y)
+        for (int x = 0; x < grey.width; ++x)
+            ++histogram[grey.at(x, y)];
+    const std::int64_t all = std::int64_t{grey.width} * grey.height;
+    const auto level_below = [&](std::int64_t percent) {
+        std::int64_t sum = 0;
+        int value = 0;
+        for (; value < 255; ++value) {
+            sum += histogram[static_cast<std::size_t>(value)];
+            if (100 * sum > percent * all)
+                break;
+        }
+        return value;
+    };
+    return {level_below(1), level_below(99)};
+}
+
+GreyPicture relit(ImageView<const std::uint8_t> grey, GreyRange range)
+{
+    constexpr int kKnee = 20;
+    std::array<std::uint8_t, 256> lit{};
+    const int span = std::max(range.bright - range.dark, 1);
+    for (int v = 0; v < 256; ++v) {
+        const int stretched = std::clamp((255 * (v - range.dark) + span / 2) / span, 0, 255);
+        lit[static_cast<std::size_t>(v)] =
+            static_cast<std::uint8_t>((stretched * (255 + kKnee) + (stretched + kKnee) / 2) / (stretched + kKnee));
+    }
+    GreyPicture picture{grey.width, grey.height, {}};
+    picture.pixels.reserve(static_cast<std::size_t>(grey.width) * static_cast<std::size_t>(grey.height));
+    for (int y = 0; y < grey.height; ++y)
+        for (int x = 0; x < grey.width; ++x)
+            picture.pixels.push_back(lit[grey.at(x, y)]);
+    return picture;
 }
 
 GreyPicture halve(ImageView<const std::uint8_t> grey)

@@ -38,6 +38,18 @@ struct GreyPicture
     ImageView<const std::uint8_t> view() const { return {pixels.data(), width, height}; }
 };
 
+/// The grey levels that a share of the pixels stays below: 1 % and 99 %.
+struct GreyRange
+{
+    int dark = 0;
+    int bright = 0;
+};
+GreyRange grey_range(ImageView<const std::uint8_t> grey);
+
+/// The same picture with `range` stretched over all levels and dark levels drawn apart, so that an edge between light
+/// and shade is weaker than one between black and white: v 275 / (v + 20), v the stretched level.
+GreyPicture relit(ImageView<const std::uint8_t> grey, GreyRange range);
+
 /// Means of 2 x 2 blocks: pixel x of the result lies at 2 x + 0.5 of the source.
 GreyPicture halve(ImageView<const std::uint8_t> grey);
 

@@ -233,6 +233,12 @@ private:
         return added;
     }
 
+    /// Crossings of the lattice on three sides or four: a board has no holes.
+    bool surrounded(Cell cell) const
+    {
+        return std::ranges::count_if(kSteps, [&](Cell step) { return find(beyond(cell, step)) != nullptr; }) >= 3;
+    }
+
     bool fill(Cell cell, const Prediction& where)
     {
         const Node& from = *where.neighbour;
@@ -253,6 +259,11 @@ private:
             refine_crossing(level_, where.at, reach * from.u, reach * from.v, kNearPrediction * where.spacing_px);
         if (!at)
             return false;
+        if (surrounded(cell)) { // whatever light falls on it
+            const Node& alike = *find(beyond(cell, where.step, -1));
+            place(cell, {*at, alike.u, alike.v, !alike.bright, alike.contrast});
+            return true;
+        }
         for (const double share : {0.3, 0.2, 0.42}) {
             const std::optional<Saddle> saddle = read_saddle(level_, *at, share * where.spacing_px, kWeakContrast);
             if (!saddle)

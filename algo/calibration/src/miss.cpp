@@ -1,5 +1,6 @@
 #include "miss.h"
 
+#include "grey_level.h"
 #include "words.h"
 
 #include <algorithm>
@@ -13,7 +14,8 @@ namespace {
 constexpr double kLineCounts = 0.5;   // of a line, from which on it counts as found
 constexpr double kBorderReach = 0.75; // of a step beyond the last line, where the next one would be
 constexpr double kFewShare = 0.25;    // of the board's corners: texture joins up that many
-constexpr int kMinContrast = 24;      // grey levels between the 1st and the 99th percentile
+constexpr double kWholeShare = 0.9;   // of a rectangle's crossings, from which on it is a board
+constexpr int kMinContrast = 12;      // grey levels between the 1st and the 99th percentile
 
 int count_in_line(const Lattice& lattice, bool column, int k)
 {
@@ -87,23 +89,7 @@ std::string explain_picture(ImageView<const std::uint8_t> grey)
 {
     if (grey.width < 32 || grey.height < 32)
         return text("the picture is too small (%d x %d) to show a board", grey.width, grey.height);
-    std::array<long, 256> histogram{};
-    for (int y = 0; y < grey.height; ++y)
-        for (int x = 0; x < grey.width; ++x)
-            ++histogram[grey.at(x, y)];
-    const long all = static_cast<long>(grey.width) * grey.height;
-    const auto percentile = [&](double share) {
-        long sum = 0;
-        int value = 0;
-        for (; value < 255; ++value) {
-            sum += histogram[static_cast<std::size_t>(value)];
-            if (static_cast<double>(sum) > share * static_cast<double>(all))
-                break;
-        }
-        return value;
-    };
-    const int dark = percentile(0.01);
-    const int bright = percentile(0.99);
+    const auto [dark, bright] = grey_range(grey);
     if (bright - dark >= kMinContrast)
         return {};
     if (bright < 64)
@@ -135,7 +121,9 @@ std::string explain_miss(const Lattice& best, bool larger_board, const Board& bo
     }
     const int cols = turned ? high : wide;
     const int rows = turned ? wide : high;
-    if (larger_board || (cols >= board.cols && rows >= board.rows && cols * rows > board.corner_count()))
+    const bool another = (cols > board.cols || rows > board.rows) &&
+                         static_cast<double>(best.size()) >= kWholeShare * cols * rows; // texture leaves gaps
+    if (larger_board || another || (cols >= board.cols && rows >= board.rows && cols * rows > board.corner_count()))
         return text("the board has at least %d x %d inner corners, not %d x %d; check --corners",
                     std::max(cols, larger_board ? board.cols : cols), rows, board.cols, board.rows);
 
@@ -143,6 +131,8 @@ std::string explain_miss(const Lattice& best, bool larger_board, const Board& bo
         return nothing;
     const bool rows_missing = rows < board.rows;
     const bool cols_missing = cols < board.cols;
+    if (!rows_missing && !cols_missing && static_cast<int>(best.size()) >= board.corner_count())
+        return "the board is there, but shadows, glare or dirt look like corners of it";
     if (!rows_missing && !cols_missing)
         return text("%zu of %d corners found; the others are hidden, in glare or too dark", best.size(),
                     board.corner_count());

@@ -15,16 +15,6 @@ namespace {
 
 constexpr std::array<double, 3> kDistances_mm{500, 800, 1000};
 
-// Gates, from good to usable to redo.
-constexpr int kGoodPairs = 10;
-constexpr int kUsablePairs = 6;
-constexpr double kGoodEpipolar_px = 0.25;
-constexpr double kUsableEpipolar_px = 0.6;
-constexpr double kGoodDepth_percent = 0.3; // of the distance
-constexpr double kUsableDepth_percent = 1.5;
-constexpr double kGoodCoverage = 0.55;
-constexpr double kUsableCoverage = 0.25;
-
 void count_coverage(const CalibrationTask& task, const StereoCalibration& calibration, Quality& quality)
 {
     const auto count = [&](Coverage& coverage, const std::vector<Point2>& corners) {
@@ -131,7 +121,7 @@ void judge(const StereoCalibration& calibration, const WorkingRange& range, Qual
         quality.advice.insert(usable ? quality.advice.end() : quality.advice.begin(), std::move(advice));
     };
     gate(
-        quality.epipolar_rms_px <= kGoodEpipolar_px, quality.epipolar_rms_px <= kUsableEpipolar_px,
+        quality.epipolar_rms_px <= kEpipolarGate_px.good, quality.epipolar_rms_px <= kEpipolarGate_px.usable,
         text("rows of the two pictures miss each other by %.2f px: take sharp pictures at the same moment, with a flat "
              "board",
              quality.epipolar_rms_px));
@@ -139,20 +129,21 @@ void judge(const StereoCalibration& calibration, const WorkingRange& range, Qual
         if (depth.distance_mm == 800) {
             const double percent = 100 * depth.calibration_mm / depth.distance_mm;
             gate(
-                percent <= kGoodDepth_percent, percent <= kUsableDepth_percent,
+                percent <= kDepthGate_percent.good, percent <= kDepthGate_percent.usable,
                 text("depth at %.0f mm is uncertain by %.1f mm: take more pairs, the board tilted by 20 to 40 degrees, "
                      "near and far",
                      depth.distance_mm, depth.calibration_mm));
         }
-    gate(quality.held_out_size_percent <= kGoodDepth_percent, quality.held_out_size_percent <= kUsableDepth_percent,
+    gate(quality.held_out_size_percent <= kDepthGate_percent.good,
+         quality.held_out_size_percent <= kDepthGate_percent.usable,
          text("boards that were held out come out %.2f %% wrong in size: take more pairs at different distances and "
               "tilts",
               quality.held_out_size_percent));
-    gate(calibration.pairs_used >= kGoodPairs, calibration.pairs_used >= kUsablePairs,
-         text("%d pairs were used: take at least %d, better 15 to 25", calibration.pairs_used, kGoodPairs));
+    gate(calibration.pairs_used >= kPairsGate.good, calibration.pairs_used >= kPairsGate.usable,
+         text("%d pairs were used: take at least %d, better 15 to 25", calibration.pairs_used, kPairsGate.good));
     const Coverage& thinner = quality.left.share < quality.right.share ? quality.left : quality.right;
     const std::string regions = empty_regions(thinner);
-    gate(thinner.share >= kGoodCoverage, thinner.share >= kUsableCoverage,
+    gate(thinner.share >= kCoverageGate.good, thinner.share >= kCoverageGate.usable,
          text("corners reach only %.0f %% of the %s picture: show the board %s%s%s too", 100 * thinner.share,
               &thinner == &quality.left ? "left" : "right", regions.empty() ? "near all borders" : "in its ",
               regions.c_str(), regions.empty() ? "" : " part"));

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace dicot::calibration {
 
@@ -244,6 +245,28 @@ Result<StereoCalibration> solve_stereo(const CalibrationTask& task)
                        result.pairs_used, task.views.size(), kMinPairs);
     TRY(check_sides(result.rig.shift_mm));
     return result;
+}
+
+std::vector<Point2> predicted_corners(const CalibrationTask& task, const StereoCalibration& calibration,
+                                      std::size_t view, bool in_right)
+{
+    const Board& board = task.boards[static_cast<std::size_t>(task.views[view].board)];
+    const ViewOutcome& pose = calibration.views[view];
+    const StereoRig& rig = calibration.rig;
+    std::vector<Point2> corners;
+    for (int row = 0; row < board.rows; ++row)
+        for (int col = 0; col < board.cols; ++col) {
+            const Eigen::Vector3d on_board =
+                board_point(board, {calibration.warp_mm[0], calibration.warp_mm[1]}, col, row);
+            const Point3 turned_only = turned(pose.turn, {on_board.x(), on_board.y(), on_board.z()});
+            Point3 at{turned_only.x + pose.shift_mm.x, turned_only.y + pose.shift_mm.y,
+                      turned_only.z + pose.shift_mm.z};
+            if (in_right)
+                at = rig.into_right(at);
+            constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+            corners.push_back(at.z > 0 ? project(in_right ? rig.right : rig.left, at) : Point2{kNone, kNone});
+        }
+    return corners;
 }
 
 StereoCalibration solve_again(const CalibrationTask& task, const StereoCalibration& start, std::span<const bool> chosen)

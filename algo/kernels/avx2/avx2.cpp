@@ -271,21 +271,134 @@ struct Remap
     }
 };
 
-void remap_row(std::uint8_t* rgb, int n, const RemapSpan* spans, int cell_log2, const RemapSource& source)
+// Eight pixels whose neighbours all lie inside, so that nothing must be held, masked or shifted back. Pixels k and k +
+// 4 share a vector, one in each half: every value is then where a shuffle within the halves can reach it.
+struct InnerRemap
+{
+    Vec ramp;   // pixel u of its cell, in cells of 8 or 4
+    Vec last_x; // the largest positions of the kind
+    Vec last_y;
+    Vec stride;
+    const std::uint8_t* rgb;
+    long long next_row;
+
+    InnerRemap(const RemapSource& source, int cell_log2)
+        : ramp(cell_log2 == 3 ? _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7) : _mm256_setr_epi32(0, 1, 2, 3, 0, 1, 2, 3)),
+          last_x(_mm256_set1_epi32(128 * (source.width - 2) - 1)), // 8 bytes from there end inside the row
+          last_y(_mm256_set1_epi32(128 * (source.height - 1) - 1)), stride(_mm256_set1_epi32(source.stride_bytes)),
+          rgb(source.rgb), next_row(source.stride_bytes)
+    {
+    }
+
+    // start + u step of the first four pixels' cell and of the last four's.
+    Vec positions(const std::int32_t (&start)[2], const std::int32_t (&step)[2]) const
+    {
+        const Vec from = _mm256_blend_epi32(_mm256_set1_epi32(start[0]), _mm256_set1_epi32(start[1]), 0xF0);
+        const Vec by = _mm256_blend_epi32(_mm256_set1_epi32(step[0]), _mm256_set1_epi32(step[1]), 0xF0);
+        const Vec fine = _mm256_add_epi32(from, _mm256_mullo_epi32(by, ramp));
+        return _mm256_srai_epi32(_mm256_add_epi32(fine, _mm256_set1_epi32(1 << 8)), 9);
+    }
+
+    static Vec everywhere(const std::uint8_t* from)
+    {
+        // A broadcast from memory costs a load alone, and the blends that follow may run on any port.
+        return _mm256_castpd_si256(_mm256_broadcast_sd(reinterpret_cast<const double*>(from)));
+    }
+
+    // Red, green and blue of pixel kFirst in the lower half and of pixel kFirst + 4 in the upper, 32 bits each.
+    template <int kFirst>
+    Vec two_pixels(const std::int32_t* offsets, Vec by_column, Vec by_row) const
+    {
+        const std::uint8_t* const low = rgb + offsets[kFirst];
+        const std::uint8_t* const high = rgb + offsets[kFirst + 4];
+        const Vec bytes =
+            _mm256_blend_epi32(_mm256_blend_epi32(everywhere(low), everywhere(low + next_row), 0x0C),
+                               _mm256_blend_epi32(everywhere(high), everywhere(high + next_row), 0xC0), 0xF0);
+        const Vec fours = _mm256_setr_epi8(0, 3, 8, 11, 1, 4, 9, 12, 2, 5, 10, 13, -1, -1, -1, -1, //
+                                           0, 3, 8, 11, 1, 4, 9, 12, 2, 5, 10, 13, -1, -1, -1, -1);
+        // Less 128, because maddubs takes one signed factor, and a weight may be 128.
+        const Vec pixels = _mm256_xor_si256(_mm256_shuffle_epi8(bytes, fours), _mm256_set1_epi8(-128));
+        const Vec rows = _mm256_maddubs_epi16(_mm256_shuffle_epi32(by_column, kFirst * 0x55), pixels);
+        const Vec sums = _mm256_madd_epi16(rows, _mm256_shuffle_epi32(by_row, kFirst * 0x55));
+        const Vec round = _mm256_set1_epi32((128 << 14) + (1 << 13)); // gives back the 128, too
+        return _mm256_srai_epi32(_mm256_add_epi32(sums, round), 14);
+    }
+
+    // 24 bytes; false, and nothing written, where a pixel is not of the kind.
+    bool eight(std::uint8_t* to, const RemapSpan& first, const RemapSpan& last) const
+    {
+        const Vec x = positions({first.x, last.x}, {first.dx, last.dx});
+        const Vec y = positions({first.y, last.y}, {first.dy, last.dy});
+        // Below 0 is very large without a sign.
+        const Vec inner = _mm256_and_si256(_mm256_cmpeq_epi32(_mm256_min_epu32(x, last_x), x),
+                                           _mm256_cmpeq_epi32(_mm256_min_epu32(y, last_y), y));
+        if (_mm256_movemask_epi8(inner) != -1)
+            return false;
+        const Vec fraction = _mm256_set1_epi32(127);
+        const Vec one = _mm256_set1_epi32(128);
+        const Vec a = _mm256_and_si256(x, fraction);
+        const Vec b = _mm256_and_si256(y, fraction);
+        const Vec bytes = _mm256_or_si256(_mm256_sub_epi32(one, a), _mm256_slli_epi32(a, 8)); // 128 - a, a
+        const Vec by_column = _mm256_or_si256(bytes, _mm256_slli_epi32(bytes, 16));
+        const Vec by_row = _mm256_or_si256(_mm256_sub_epi32(one, b), _mm256_slli_epi32(b, 16));
+
+        const Vec left = _mm256_srli_epi32(x, 7);
+        const Vec row = _mm256_mullo_epi32(_mm256_srli_epi32(y, 7), stride);
+        alignas(32) std::int32_t offsets[8];
+        _mm256_store_si256(reinterpret_cast<__m256i*>(offsets),
+                           _mm256_add_epi32(row, _mm256_add_epi32(left, _mm256_add_epi32(left, left))));
+        // Through memory: gcc would take the lanes apart by shuffles, which share one port with all others here.
+        asm("" : "+m"(offsets));
+        const Vec words_01 =
+            _mm256_packs_epi32(two_pixels<0>(offsets, by_column, by_row), two_pixels<1>(offsets, by_column, by_row));
+        const Vec words_23 =
+            _mm256_packs_epi32(two_pixels<2>(offsets, by_column, by_row), two_pixels<3>(offsets, by_column, by_row));
+        const Vec three_of_four = _mm256_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1, //
+                                                   0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1);
+        const Vec packed =
+            _mm256_permutevar8x32_epi32(_mm256_shuffle_epi8(_mm256_packus_epi16(words_01, words_23), three_of_four),
+                                        _mm256_setr_epi32(0, 1, 2, 4, 5, 6, 3, 7));
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm256_castsi256_si128(packed));
+        _mm_storel_epi64(reinterpret_cast<__m128i*>(to + 16), _mm256_extracti128_si256(packed, 1));
+        return true;
+    }
+};
+
+// Eights from pixel i on; returns where it stopped: before one that is not of the kind, or at n. No call stands in the
+// loop, so its constants stay in registers.
+int remap_inner(std::uint8_t* rgb, int i, int n, const RemapSpan* spans, int cell_log2, const RemapSource& source)
+{
+    const InnerRemap inner(source, cell_log2);
+    while (i + 8 <= n && inner.eight(rgb + 3 * i, spans[i >> cell_log2], spans[(i + 4) >> cell_log2]))
+        i += 8;
+    return i;
+}
+
+// Pixels i .. end - 1, i being a multiple of 4.
+void remap_any(std::uint8_t* rgb, int i, int end, const RemapSpan* spans, int cell_log2, const RemapSource& source)
 {
     const Remap remap(source);
     const int in_cell = (1 << cell_log2) - 1;
-    int i = 0;
-    for (; i + 4 <= n; i += 4) {
+    for (; i + 4 <= end; i += 4) {
         const __m128i quad = remap.quad(spans[i >> cell_log2], i & in_cell);
         _mm_storel_epi64(reinterpret_cast<__m128i*>(rgb + 3 * i), quad);
         _mm_storeu_si32(rgb + 3 * i + 8, _mm_srli_si128(quad, 8));
     }
-    if (i < n) {
+    if (i < end) {
         alignas(16) std::uint8_t rest[16];
         _mm_store_si128(reinterpret_cast<__m128i*>(rest), remap.quad(spans[i >> cell_log2], i & in_cell));
-        for (int k = 0; k < 3 * (n - i); ++k)
+        for (int k = 0; k < 3 * (end - i); ++k)
             rgb[3 * i + k] = rest[k];
+    }
+}
+
+void remap_row(std::uint8_t* rgb, int n, const RemapSpan* spans, int cell_log2, const RemapSource& source)
+{
+    int i = 0;
+    while ((i = remap_inner(rgb, i, n, spans, cell_log2, source)) < n) {
+        const int end = i + 8 <= n ? i + 8 : n;
+        remap_any(rgb, i, end, spans, cell_log2, source);
+        i = end;
     }
 }
 

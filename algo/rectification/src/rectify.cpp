@@ -186,15 +186,8 @@ Result<Rectification> rectify(const StereoRig& rig, double keep, const char* nam
     const Cover left = TRY(cover_of(rig.left, flat.left_rectifying, rig.width, rig.height, name));
     const Cover right = TRY(cover_of(rig.right, flat.right_rectifying, rig.width, rig.height, name));
     // The principal point that centres both pictures, at the focal length that OpenCV starts from.
-    double focal = 1e300;
+    const double focal = (rig.left.fy + rig.right.fy) / 2;
     const double w = rig.width, h = rig.height;
-    for (const Lens* lens : {&rig.left, &rig.right}) {
-        const double k1 = lens->k[0];
-        const double own = k1 < 0 ? lens->fy * (1 + k1 * (w * w + h * h) / (4 * lens->fy * lens->fy)) : lens->fy;
-        focal = std::min(focal, own);
-    }
-    if (!(focal > 1))
-        return failure(Fault::kBadData, "%s: the distortion is too strong for a flat picture: calibrate again", name);
     flat.cx_px = (w - 1) / 2 - focal * (left.mean_x + right.mean_x) / 2;
     flat.cy_px = (h - 1) / 2 - focal * (left.mean_y + right.mean_y) / 2;
 

@@ -46,21 +46,30 @@ std::int32_t corner_of(double position)
 
 } // namespace
 
-std::size_t RemapTable::most_bytes(int width, int height)
+RemapTable RemapTable::finest(int width, int height)
 {
     RemapTable table;
     table.width_ = width;
     table.height_ = height;
     table.cell_log2_ = kSmallestCellLog2;
+    return table;
+}
+
+std::size_t RemapTable::most_bytes(int width, int height)
+{
     Arena arena;
-    table.take(arena);
+    finest(width, height).take(arena);
     return arena.peak();
+}
+
+std::size_t RemapTable::most_serial_bytes(int width, int height)
+{
+    return finest(width, height).serial_bytes();
 }
 
 void RemapTable::take(Arena& arena)
 {
-    const auto columns_of_corners = static_cast<std::size_t>(columns() + 1);
-    corners_ = arena.take<Corner>(columns_of_corners * static_cast<std::size_t>(cell_rows() + 1));
+    corners_ = arena.take<Corner>(corner_count());
     row_ranges_ = arena.take<RowRange>(static_cast<std::size_t>(height_));
     scratch_ = arena.take<RemapSpan>(static_cast<std::size_t>(columns()));
 }
@@ -82,9 +91,10 @@ Result<RemapTable> RemapTable::build(const LensMap& map, int width, int height, 
         if (arena.overrun())
             return failure(Fault::kSoftware, "%s: the arena is too small for its rectification table", name);
         table.fill_corners(map);
-        table.worst_error_px_ = table.measure_error(map, table.scratch_);
-        if (table.worst_error_px_ > kMostErrorPx)
+        const double worst_px = table.measure_error(map, table.scratch_);
+        if (worst_px > kMostErrorPx)
             continue;
+        table.worst_error_steps_ = static_cast<int>(std::ceil(worst_px * kErrorSteps));
         table.find_row_ranges(table.scratch_);
         if (table.pixels_with_source_ == 0)
             return failure(Fault::kBadData,
@@ -165,14 +175,24 @@ void RemapTable::find_row_ranges(std::span<RemapSpan> spans)
     pixels_with_source_ = 0;
     for (int y = 0; y < height_; ++y) {
         row_spans(y, spans);
+        const auto has_source = [&](int x) { return inside(steps_at(spans, cell_log2_, x), width_, height_); };
         RowRange range{0, 0};
-        for (int x = 0; x < width_; ++x) {
-            if (!inside(steps_at(spans, cell_log2_, x), width_, height_))
-                continue;
+        const auto add = [&](int x, int end) {
             if (range.end == 0)
                 range.first = static_cast<std::uint16_t>(x);
-            range.end = static_cast<std::uint16_t>(x + 1);
-            ++pixels_with_source_;
+            range.end = static_cast<std::uint16_t>(end);
+            pixels_with_source_ += end - x;
+        };
+        for (int first = 0; first < width_; first += cell_px()) {
+            const int end = std::min(first + cell_px(), width_);
+            // Positions of a cell lie on a line, so what is between two inside is inside.
+            if (has_source(first) && has_source(end - 1)) {
+                add(first, end);
+                continue;
+            }
+            for (int x = first; x < end; ++x)
+                if (has_source(x))
+                    add(x, x + 1);
         }
         row_ranges_[static_cast<std::size_t>(y)] = range;
     }

@@ -177,11 +177,15 @@ Status OutputFile::flush() noexcept
     return {};
 }
 
-Status OutputFile::commit() noexcept
+Status OutputFile::sync() noexcept
 {
     TRY(flush());
-    if (!direct_ && ::fsync(descriptor_) != 0)
-        return io_failure(errno);
+    return direct_ || ::fsync(descriptor_) == 0 ? Status{} : io_failure(errno);
+}
+
+Status OutputFile::commit() noexcept
+{
+    TRY(sync());
     const int closed = ::close(descriptor_);
     descriptor_ = -1;
     if (closed != 0)

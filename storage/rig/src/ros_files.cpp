@@ -1,91 +1,24 @@
 #include "dicot/rig/ros_files.h"
 
-#include "rig_values.h"
+#include "ros_camera.h"
 
 #include "dicot/os/input_file.h"
 #include "dicot/os/output_file.h"
 #include "dicot/os/shown_path.h"
 
-#include <charconv>
+#include <algorithm>
+#include <cmath>
+#include <memory>
 #include <new>
-#include <string_view>
 #include <vector>
 
 namespace dicot {
 namespace {
 
-using Kind = YamlEvents::Kind;
-constexpr double kMmPerMetre = 1000.0;
+// What rounding in a text file may have done to numbers that follow from each other.
+constexpr double kSameTurn = 1e-9;
 
-struct CameraFile
-{
-    int width = 0;
-    int height = 0;
-    RigCamera camera;
-};
-
-void add_matrix(std::string& text, const char* key, std::size_t rows, std::size_t columns, const double* values)
-{
-    text += std::string{key} + ":\n  rows: " + std::to_string(rows) + "\n  cols: " + std::to_string(columns) +
-            "\n  data: [";
-    for (std::size_t i = 0; i < rows * columns; ++i) {
-        char digits[32]; // to_chars, not printf: a locale must not turn the point into a comma
-        const auto end = std::to_chars(digits, digits + sizeof digits, values[i]);
-        text.append(i > 0 ? ", " : "").append(digits, end.ptr);
-    }
-    text += "]\n";
-}
-
-std::string text_of(const RigFile& rig, const RigCamera& camera, const char* camera_name)
-{
-    std::string text = "image_width: " + std::to_string(rig.width) + "\nimage_height: " + std::to_string(rig.height) +
-                       "\ncamera_name: " + camera_name + "\n";
-    add_matrix(text, "camera_matrix", 3, 3, (*camera.intrinsic)[0].data());
-    const Distortion distortion = camera.distortion.value_or(Distortion{5, {}});
-    const std::size_t count = distortion.count > 5 ? 8 : 5;
-    text += std::string{"distortion_model: "} + (count == 8 ? "rational_polynomial" : "plumb_bob") + "\n";
-    add_matrix(text, "distortion_coefficients", 1, count, distortion.at.data());
-    add_matrix(text, "rectification_matrix", 3, 3, (*camera.rectifying)[0].data());
-    Matrix<3, 4> projection = *camera.projection;
-    for (auto& row : projection)
-        row[3] /= kMmPerMetre;
-    add_matrix(text, "projection_matrix", 3, 4, projection[0].data());
-    return text;
-}
-
-template <std::size_t Rows, std::size_t Columns>
-Status take_matrix(YamlEvents& events, std::string_view key, std::optional<Matrix<Rows, Columns>>& into,
-                   const char* shape)
-{
-    const RawMatrix raw = TRY(read_matrix(events, key));
-    if (raw.rows != static_cast<int>(Rows) || raw.columns != static_cast<int>(Columns))
-        return wrong_shape(events, key, raw, shape);
-    into.emplace();
-    for (std::size_t i = 0; i < Rows * Columns; ++i)
-        (*into)[i / Columns][i % Columns] = raw.at[i];
-    return {};
-}
-
-Status take_key(YamlEvents& events, std::string_view key, CameraFile& file)
-{
-    if (key == "image_width")
-        file.width = TRY(read_whole(events, key));
-    else if (key == "image_height")
-        file.height = TRY(read_whole(events, key));
-    else if (key == "camera_matrix")
-        return take_matrix(events, key, file.camera.intrinsic, "3 x 3");
-    else if (key == "distortion_coefficients")
-        file.camera.distortion = TRY(read_distortion(events, key));
-    else if (key == "rectification_matrix")
-        return take_matrix(events, key, file.camera.rectifying, "3 x 3");
-    else if (key == "projection_matrix")
-        return take_matrix(events, key, file.camera.projection, "3 x 4");
-    else
-        events.skip_value();
-    return events.status();
-}
-
-Result<CameraFile> read_camera(const std::string& path)
+Result<std::vector<std::byte>> bytes_of(const std::string& path)
 {
     InputFile input;
     TRY(input.open(path.c_str()));
@@ -93,29 +26,8 @@ Result<CameraFile> read_camera(const std::string& path)
         return failure(Fault::kBadData, "%s: a camera file has 1 MiB at most: give the folder of a camera_info pair",
                        shown_path(path.c_str()));
     std::vector<std::byte> text(static_cast<std::size_t>(input.size_bytes()));
-    const std::size_t size = TRY(input.read(text));
-    YamlEvents events{std::span{text}.first(size), path.c_str()};
-    if (events.kind() != Kind::kMapStart)
-        return events.status().ok() ? events.fault("no camera's description: keys and values are expected")
-                                    : events.status();
-    events.next();
-    CameraFile file;
-    while (events.kind() == Kind::kScalar) {
-        const std::string key{events.scalar()};
-        events.next();
-        TRY(take_key(events, key, file));
-    }
-    if (events.kind() != Kind::kMapEnd)
-        return events.status().ok() ? events.fault("a key is expected") : events.status();
-    if (!file.camera.intrinsic || !file.camera.distortion || !file.camera.rectifying || !file.camera.projection ||
-        file.width < 1 || file.height < 1 || file.width > kMaxRigPictureSide || file.height > kMaxRigPictureSide)
-        return failure(Fault::kBadData,
-                       "%s: image_width, image_height, camera_matrix, distortion_coefficients, rectification_matrix "
-                       "or projection_matrix is missing or senseless: export the camera again",
-                       shown_path(path.c_str()));
-    for (auto& row : *file.camera.projection)
-        row[3] *= kMmPerMetre;
-    return file;
+    text.resize(TRY(input.read(text)));
+    return text;
 }
 
 /// The transpose of `a` times `b`.
@@ -129,9 +41,37 @@ Matrix<3, Columns> back_turned(const Matrix<3, 3>& a, const Matrix<3, Columns>& 
     return result;
 }
 
-} // namespace
+Matrix<3, 3> rotation_between(const RigFile& rig)
+{
+    return back_turned(*rig.right.rectifying, *rig.left.rectifying);
+}
 
-Status write_ros_files(const RigFile& rig, const std::string& folder, const char* name)
+std::array<double, 3> shift_between_mm(const RigFile& rig)
+{
+    const Matrix<3, 4>& projection = *rig.right.projection;
+    const Matrix<3, 1> shift =
+        back_turned(*rig.right.rectifying, Matrix<3, 1>{{{projection[0][3] / projection[0][0]}, {0}, {0}}});
+    return {shift[0][0], shift[1][0], shift[2][0]};
+}
+
+/// Whether R and T can be told from the rectification, which is all that camera_info holds of them.
+bool rectification_holds_the_rig(const RigFile& rig)
+{
+    const std::array<double, 3> shift = shift_between_mm(rig);
+    double longest = 0;
+    for (const double length : shift)
+        longest = std::max(longest, std::fabs(length));
+    bool same = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+        same = same && (!rig.translation_mm || std::fabs((*rig.translation_mm)[i] - shift[i]) <= kSameTurn * longest);
+        for (std::size_t j = 0; j < 3; ++j)
+            same =
+                same && (!rig.rotation || std::fabs((*rig.rotation)[i][j] - rotation_between(rig)[i][j]) <= kSameTurn);
+    }
+    return same;
+}
+
+Status check_for_ros(const RigFile& rig, const char* name)
 {
     for (const RigCamera* camera : {&rig.left, &rig.right}) {
         if (!camera->intrinsic || !camera->rectifying || !camera->projection)
@@ -145,46 +85,74 @@ Status write_ros_files(const RigFile& rig, const std::string& folder, const char
                                "%s: camera_info holds 8 distortion coefficients at most: calibrate with fewer",
                                shown_path(name));
     }
-    OutputFile left, right;
-    const std::string left_text = text_of(rig, rig.left, "left"), right_text = text_of(rig, rig.right, "right");
-    TRY(left.open((folder + "/left.yaml").c_str()));
-    TRY(right.open((folder + "/right.yaml").c_str()));
-    TRY(left.write(left_text.data(), left_text.size()));
-    TRY(right.write(right_text.data(), right_text.size()));
-    TRY(left.commit());
-    return right.commit();
+    TRY(geometry_of(rig, name));
+    if (!rectification_holds_the_rig(rig))
+        return failure(Fault::kBadData,
+                       "%s: R1, R2 and P2 do not belong to R and T: take R1, R2, P1, P2 and Q out of the file, and "
+                       "they are computed again",
+                       shown_path(name));
+    return {};
+}
+
+} // namespace
+
+Status write_ros_files(const RigFile& rig, const std::string& folder, const char* name)
+{
+    TRY(check_for_ros(rig, name));
+    try {
+        const std::string texts[] = {ros_text_of({rig.width, rig.height, rig.left}, "left"),
+                                     ros_text_of({rig.width, rig.height, rig.right}, "right")};
+        const auto files = std::make_unique<OutputFile[]>(2);
+        TRY(files[0].open((folder + "/left.yaml").c_str()));
+        TRY(files[1].open((folder + "/right.yaml").c_str()));
+        for (std::size_t side = 0; side < 2; ++side) {
+            TRY(files[side].write(texts[side].data(), texts[side].size()));
+            TRY(files[side].sync());
+        }
+        TRY(files[0].commit());
+        return files[1].commit();
+    } catch (const std::bad_alloc&) {
+        return failure(Fault::kOsError, "%s: no memory to write its camera files", shown_path(folder.c_str()));
+    }
+}
+
+Result<RigFile> parse_ros(std::span<const std::byte> left_text, std::span<const std::byte> right_text,
+                          const std::string& folder)
+{
+    const RosCamera left = TRY(parse_ros_camera(left_text, (folder + "/left.yaml").c_str()));
+    const RosCamera right = TRY(parse_ros_camera(right_text, (folder + "/right.yaml").c_str()));
+    const char* shown = shown_path(folder.c_str());
+    if (left.width != right.width || left.height != right.height)
+        return failure(Fault::kBadData,
+                       "%s: left.yaml is for %d x %d px and right.yaml for %d x %d: export both from one calibration",
+                       shown, left.width, left.height, right.width, right.height);
+    RigFile rig;
+    rig.width = left.width;
+    rig.height = left.height;
+    rig.left = left.camera;
+    rig.right = right.camera;
+    const double shift_px_mm = (*rig.right.projection)[0][3];
+    if (!(shift_px_mm < 0))
+        return failure(Fault::kBadData,
+                       "%s: P[0,3] of right.yaml must be negative: left.yaml and right.yaml are swapped, or of one "
+                       "camera alone",
+                       shown);
+    const RigGeometry geometry = TRY(geometry_of(rig, folder.c_str()));
+    rig.rotation = rotation_between(rig);
+    rig.translation_mm = shift_between_mm(rig);
+    rig.reprojection = {{{1, 0, 0, -geometry.cx_px},
+                         {0, 1, 0, -geometry.cy_px},
+                         {0, 0, 0, geometry.focal_px},
+                         {0, 0, 1 / geometry.baseline_mm, geometry.disparity_offset_px / geometry.baseline_mm}}};
+    return rig;
 }
 
 Result<RigFile> read_ros_files(const std::string& folder)
 {
     try {
-        CameraFile left = TRY(read_camera(folder + "/left.yaml"));
-        CameraFile right = TRY(read_camera(folder + "/right.yaml"));
-        if (left.width != right.width || left.height != right.height)
-            return failure(
-                Fault::kBadData,
-                "%s: left.yaml is for %d x %d px and right.yaml for %d x %d: export both from one calibration",
-                shown_path(folder.c_str()), left.width, left.height, right.width, right.height);
-        const double focal = (*right.camera.projection)[0][0];
-        if (!(focal > 0))
-            return failure(Fault::kBadData,
-                           "%s: right.yaml has a senseless focal length in projection_matrix: export it again",
-                           shown_path(folder.c_str()));
-        RigFile rig;
-        rig.width = left.width;
-        rig.height = left.height;
-        rig.rotation = back_turned(*right.camera.rectifying, *left.camera.rectifying);
-        const Matrix<3, 1> shift =
-            back_turned(*right.camera.rectifying, Matrix<3, 1>{{{(*right.camera.projection)[0][3] / focal}, {0}, {0}}});
-        rig.translation_mm = {shift[0][0], shift[1][0], shift[2][0]};
-        if (!(shift[0][0] < 0))
-            return failure(Fault::kBadData,
-                           "%s: P[0,3] of right.yaml must be negative: left.yaml and right.yaml are swapped, or of one "
-                           "camera alone",
-                           shown_path(folder.c_str()));
-        rig.left = left.camera;
-        rig.right = right.camera;
-        return rig;
+        const std::vector<std::byte> left = TRY(bytes_of(folder + "/left.yaml"));
+        const std::vector<std::byte> right = TRY(bytes_of(folder + "/right.yaml"));
+        return parse_ros(left, right, folder);
     } catch (const std::bad_alloc&) {
         return failure(Fault::kOsError, "%s: no memory to read its camera files", shown_path(folder.c_str()));
     }

@@ -42,6 +42,19 @@ enum class Verdict
 };
 const char* name_of(Verdict verdict);
 
+/// Up to where a number is good, and up to where it is usable; beyond, the verdict is kRedo.
+template <typename Number>
+struct Gate
+{
+    Number good;
+    Number usable;
+};
+constexpr Gate<double> kEpipolarGate_px{0.25, 0.6};
+/// Of the distance: the expected depth error at 800 mm, and the size of held-out boards.
+constexpr Gate<double> kDepthGate_percent{0.3, 1.5};
+constexpr Gate<int> kPairsGate{10, 6};
+constexpr Gate<double> kCoverageGate{0.55, 0.25}; ///< share of the cells, of the thinner picture
+
 struct Quality
 {
     /// Pairs that a solution without them triangulates (at most kFolds solutions): distance of the corners from the

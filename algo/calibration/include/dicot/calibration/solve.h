@@ -69,6 +69,11 @@ Result<StereoCalibration> solve_stereo(const CalibrationTask& task);
 
 constexpr int kMinPairs = 4;
 
+/// Where a camera should see the corners of a view, px, row after row, the board's bow included; not a number where a
+/// corner would lie behind the camera.
+std::vector<Point2> predicted_corners(const CalibrationTask& task, const StereoCalibration& calibration,
+                                      std::size_t view, bool in_right);
+
 /// As solve_stereo, from a former result and over the views marked `chosen` only; nothing is dropped or refused.
 StereoCalibration solve_again(const CalibrationTask& task, const StereoCalibration& start,
                               std::span<const bool> chosen);

@@ -23,6 +23,7 @@ class RemapTable
 public:
     static constexpr int kCornerFraction = 10;
     static constexpr double kMostErrorPx = 1.0 / 64;
+    static constexpr int kErrorSteps = 1 << 20; ///< of worst_error_px() in a px
 
     /// Pixels first .. end - 1 of a row: no pixel outside has a source.
     struct RowRange
@@ -34,6 +35,8 @@ public:
 
     /// Bytes of an arena that build() and read() never exceed.
     static std::size_t most_bytes(int width, int height);
+    /// Bytes that serial_bytes() never exceeds.
+    static std::size_t most_serial_bytes(int width, int height);
 
     /// A table for pictures of the same size before and after, 8 to 16384 px on a side, in memory of `arena`.
     /// The same map gives the same bytes on every CPU. `name` stands for the rig in sentences.
@@ -46,8 +49,8 @@ public:
     /// Cells of a row, the last one perhaps beyond the picture.
     int columns() const { return (width_ + cell_px() - 1) / cell_px(); }
     int cell_rows() const { return (height_ + cell_px() - 1) / cell_px(); }
-    /// Measured by build(); 0 of a table that was read.
-    double worst_error_px() const { return worst_error_px_; }
+    /// As build() measured it, rounded up to a step.
+    double worst_error_px() const { return static_cast<double>(worst_error_steps_) / kErrorSteps; }
     std::int64_t pixels_with_source() const { return pixels_with_source_; }
     std::size_t table_bytes() const;
     std::span<const RowRange> row_ranges() const { return row_ranges_; }
@@ -58,9 +61,9 @@ public:
     void row_mask(std::span<const RemapSpan> spans, std::span<std::uint8_t> mask) const;
 
     /// The table as bytes (README.md), the last 4 being the CRC-32 (IEEE 802.3) of the others; the same everywhere.
-    /// serial_bytes() of them.
+    /// serial_bytes() of them. Returns the CRC-32.
     std::size_t serial_bytes() const;
-    void write(std::span<std::byte> into) const;
+    std::uint32_t write(std::span<std::byte> into) const;
     /// A table out of bytes that may come from anywhere. Fault::kBadData: cut short, damaged, not a table.
     static Result<RemapTable> read(std::span<const std::byte> bytes, Arena& arena, const char* name);
 
@@ -70,6 +73,12 @@ private:
         std::int32_t x, y;
     };
 
+    /// Without memory: the largest table for this size.
+    static RemapTable finest(int width, int height);
+    std::size_t corner_count() const
+    {
+        return static_cast<std::size_t>(columns() + 1) * static_cast<std::size_t>(cell_rows() + 1);
+    }
     void take(Arena& arena);
     void fill_corners(const LensMap& map);
     /// Largest error, or infinity where the table gives a source to a pixel that has none.
@@ -83,7 +92,7 @@ private:
     std::span<Corner> corners_;
     std::span<RowRange> row_ranges_;
     std::span<RemapSpan> scratch_;
-    double worst_error_px_ = 0;
+    int worst_error_steps_ = 0;
     std::int64_t pixels_with_source_ = 0;
 };
 

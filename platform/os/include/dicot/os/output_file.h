@@ -30,6 +30,9 @@ public:
     /// called.
     Status write(std::span<const std::byte> bytes) noexcept;
     Status write(const void* bytes, std::size_t count) noexcept;
+    /// What was written so far is on the disk, and still out of sight: several files that belong together are all
+    /// synced before the first is committed. Fault::kIoError as for write().
+    Status sync() noexcept;
     /// Makes the file appear, durable. Fault::kIoError as for write().
     Status commit() noexcept;
 

@@ -85,10 +85,19 @@ struct RigFile
 /// required yet. Fault::kBadData otherwise.
 Result<RigFile> parse_rig(std::span<const std::byte> text, const char* name);
 
+/// What a person knows about a file that does not say it itself. Where both say it, they must agree.
+struct RigHints
+{
+    int width = 0; ///< px, of each picture; 0: not known
+    int height = 0;
+    double mm_per_unit = 0; ///< of the file's lengths; 0: not known, mm are assumed
+};
+
 /// Reads the file at `path`. Fault::kNoInput: missing or unreadable. Allocates: for start-up only.
-Result<RigFile> read_rig_file(const char* path);
+Result<RigFile> read_rig_file(const char* path, const RigHints& hints = {});
 
 /// Writes `rig` with full precision, unit mm: reading it again gives the same values. Durable or absent.
+/// Fault::kBadData: a number is not finite (it is named by its key), nothing is written.
 Status write_rig_file(const char* path, const RigFile& rig);
 
 /// The geometry of the rectified pictures, out of P1 and P2. Fault::kBadData: P1 or P2 missing, or not those of a

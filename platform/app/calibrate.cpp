@@ -1,0 +1,208 @@
+// dicot calibrate: pictures of a chessboard in, the geometry of the two cameras out.
+#include "calibrate/board_words.h"
+#include "calibrate/calibration_date.h"
+#include "calibrate/calibration_run.h"
+#include "calibrate/calibration_words.h"
+#include "calibrate/report.h"
+#include "commands.h"
+#include "distinct_files.h"
+#include "output_folder.h"
+#include "stored_maps.h"
+
+#include "dicot/os/clock.h"
+#include "dicot/os/output_file.h"
+#include "dicot/os/process_memory.h"
+#include "dicot/os/thread_crew.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+namespace dicot::app {
+namespace {
+
+struct Words
+{
+    std::vector<BoardWord> boards; ///< filled from the options below, in their order
+    std::vector<std::string> images, corners, squares, square_mm;
+    CalibrationPlan plan;
+    std::string output, report;
+    int threads = 0;
+    bool force = false;
+    bool json = false;
+};
+
+/// Looks at the outputs before the work.
+Status check(const Words& words, const CalibrationPlan& plan, const CalibrationRun& run)
+{
+    for (const SeenPair& pair : run.pairs)
+        TRY(check_distinct({pair.left_path, pair.right_path}, {words.output}));
+    for (const PictureSet& set : plan.sets)
+        TRY(check_distinct({set.folder}, {words.report}));
+    OutputFile can_be_written;
+    TRY(can_be_written.open(words.output.c_str()));
+    return words.report.empty() ? Status{} : make_folder(words.report);
+}
+
+/// What a verdict of redo says about the rig file.
+Status refuse_redo(const Words& words, const CalibrationRun& run)
+{
+    if (run.quality.verdict != calibration::Verdict::kRedo || words.force)
+        return {};
+    return failure(
+        Fault::kBadData, "%.100s is not written, for the verdict is redo: %s (or write it all the same with --force)",
+        words.output.c_str(), run.quality.advice.empty() ? "take new pictures" : run.quality.advice.front().c_str());
+}
+
+std::string page_in(const std::string& folder)
+{
+    return folder + "/index.html";
+}
+
+bool is_there(const std::string& path)
+{
+    return ::access(path.c_str(), F_OK) == 0;
+}
+
+struct Written
+{
+    bool rig = false;
+    bool page = false;
+    std::string maps; ///< the stored tables' path; empty when not written
+    Status outcome;   ///< of the whole command
+};
+
+/// The page first: should that fail, the rig file is still the former one. Its tables last: without them, or with
+/// those of the former rig, they are built when they are needed. A refused run replaces nothing: its page is
+/// written only where none stands.
+Written write_outputs(const Words& words, const CalibrationRun& run, const Status& calibrated)
+{
+    Written written;
+    written.outcome = calibrated.ok() ? refuse_redo(words, run) : calibrated;
+    if (!words.report.empty() && (written.outcome.ok() || !is_there(page_in(words.report)))) {
+        const Status reported = write_report(run, words.report);
+        written.page = reported.ok();
+        if (written.outcome.ok())
+            written.outcome = reported;
+    }
+    if (written.outcome.ok())
+        written.outcome = write_rig_file(words.output.c_str(), run.rig);
+    written.rig = written.outcome.ok();
+    if (written.rig) {
+        const std::string maps = maps_path(words.output);
+        written.outcome = store_tables(run.rig, kCrop, words.output, maps).status();
+        if (written.outcome.ok())
+            written.maps = maps;
+    }
+    return written;
+}
+
+Status tell(const Words& words, const CalibrationRun& run, int threads, const Written& written)
+{
+    const ProcessMemory memory = TRY(process_memory());
+    if (words.json) {
+        nlohmann::json json = as_json(run);
+        json["output"] = words.output;
+        json["written"] = written.rig;
+        if (!words.report.empty()) {
+            json["report"] = words.report;
+            json["report_written"] = written.page;
+        }
+        if (!written.maps.empty())
+            json["tables"] = written.maps;
+        json["refused"] = written.outcome.message();
+        json["threads"] = threads;
+        json["processor_s"] = static_cast<double>(process_cpu_us()) * 1e-6;
+        json["peak_memory_bytes"] = memory.peak_bytes;
+        // Names of files may be any bytes.
+        std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    } else {
+        print_run(run);
+        std::printf("\nboards found in %.2f s, solved in %.2f s (%d thread%s), peak memory %.1f MiB\n", run.finding_s,
+                    run.solving_s, threads, threads == 1 ? "" : "s",
+                    static_cast<double>(memory.peak_bytes) / (1 << 20));
+        if (written.page)
+            std::printf("%s: the report\n", page_in(words.report).c_str());
+        else if (!words.report.empty() && is_there(page_in(words.report)))
+            std::printf("%s: that of an earlier run stays\n", page_in(words.report).c_str());
+        if (written.rig)
+            std::printf("%s: written, %s\n", words.output.c_str(), run.rig.id);
+        if (!written.maps.empty())
+            std::printf("%s: its rectification tables\n", written.maps.c_str());
+    }
+    std::fflush(stdout); // before the sentence on stderr
+    return {};
+}
+
+Status run(const Words& words)
+{
+    CalibrationPlan plan = words.plan;
+    plan.sets = TRY(read_board_words(words.boards));
+    if (!(plan.range.near_mm > 0 && plan.range.near_mm < plan.range.far_mm && plan.range.far_mm <= 1e6))
+        return failure(Fault::kUsage, "--near-mm must be above 0 and below --far-mm, which is 1000000 at most");
+    CalibrationRun run;
+    TRY(date_rig(run.rig));
+    TRY(list_pairs(plan, run));
+    TRY(check(words, plan, run));
+
+    const int threads = words.threads > 0 ? words.threads : std::min(ThreadCrew::processors(), ThreadCrew::kMaxThreads);
+    ThreadCrew crew(threads);
+    TRY(crew.started());
+    const Status calibrated = calibrate(plan, run, crew);
+    const Written written = write_outputs(words, run, calibrated);
+    TRY(tell(words, run, threads, written));
+    return written.outcome;
+}
+
+} // namespace
+
+void add_calibrate(CLI::App& program, Command& chosen)
+{
+    CLI::App* command = program.add_subcommand("calibrate", "Two cameras' geometry from pictures of a chessboard");
+    auto words = std::make_shared<Words>();
+    std::map<const CLI::Option*, std::pair<BoardWord::Kind, const std::vector<std::string>*>> ordered;
+    const auto add = [&](const char* name, BoardWord::Kind kind, std::vector<std::string>& values, const char* what) {
+        constexpr std::array<const char*, 4> kTypes{"DIR", "CxR", "CxR", "MM"};
+        ordered[command->add_option(name, values, what)->allow_extra_args(false)->type_name(kTypes[kind])] = {kind,
+                                                                                                              &values};
+    };
+    add("--images", BoardWord::kImages, words->images,
+        "folder of pairs: left01.jpg and right01.jpg, 0001_left.png and 0001_right.png, or left/ and right/");
+    add("--corners", BoardWord::kCorners, words->corners, "inner corners of the board, columns x rows, like 9x6");
+    add("--squares", BoardWord::kSquares, words->squares, "the same counted in squares: 10x7 has 9x6 corners");
+    add("--square-mm", BoardWord::kSquareMm, words->square_mm, "side of one square, mm");
+    command->add_option("-o,--output", words->output, "rig file (YAML)")->required();
+    command->add_option("--report", words->report, "folder for a page about it: index.html and its pictures");
+    command->add_option("--near-mm", words->plan.range.near_mm, "where the plants begin")->capture_default_str();
+    command->add_option("--far-mm", words->plan.range.far_mm, "where they end")->capture_default_str();
+    command->add_flag("--fit-k3", words->plan.fit_k3, "fit the third radial distortion too, for wide lenses");
+    command->add_flag("--fit-warp", words->plan.fit_warp, "fit a bow of the board, for one that is not flat");
+    command
+        ->add_option("--threads", words->threads, "worker threads; 0: one for each processor. Never changes the result")
+        ->check(CLI::Range(0, ThreadCrew::kMaxThreads))
+        ->capture_default_str();
+    command->add_flag("--force", words->force, "write the rig file even if the verdict is redo");
+    command->add_flag("--json", words->json, "report as JSON");
+    command->footer(
+        "Several boards: name each folder and then its board,\n"
+        "  --images A --corners 9x9 --square-mm 41 --images B --corners 7x7 --square-mm 46\n"
+        "Folders that stand together share the boards behind them; boards before all folders belong to every folder. "
+        "A\n"
+        "folder with several boards is searched for each. Exit code 65, and no rig file, when the verdict is redo.");
+    command->callback([words, command, ordered, &chosen] {
+        std::map<const CLI::Option*, std::size_t> taken;
+        for (const CLI::Option* option : command->parse_order())
+            if (const auto found = ordered.find(option); found != ordered.end())
+                words->boards.push_back({found->second.first, found->second.second->at(taken[option]++)});
+        chosen = [words] { return run(*words); };
+    });
+}
+
+} // namespace dicot::app

@@ -1,0 +1,36 @@
+#include "calibration_date.h"
+
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+
+namespace dicot::app {
+namespace {
+
+constexpr std::time_t kYear2020 = 1577836800;
+constexpr std::time_t kYear10000 = 253402300800;
+
+} // namespace
+
+Status date_rig(RigFile& rig)
+{
+    rig.calibrated_at[0] = '\0';
+    std::time_t seconds = std::time(nullptr);
+    if (const char* fixed = std::getenv("SOURCE_DATE_EPOCH"); fixed != nullptr) {
+        const char* end = fixed + std::strlen(fixed);
+        long long given = 0;
+        const auto read = std::from_chars(fixed, end, given);
+        if (read.ec != std::errc{} || read.ptr != end || given < 0 || given >= kYear10000)
+            return failure(Fault::kUsage, "SOURCE_DATE_EPOCH is '%.40s': give seconds since 1970, or unset it", fixed);
+        seconds = static_cast<std::time_t>(given);
+    } else if (seconds < kYear2020) {
+        return {};
+    }
+    std::tm utc{};
+    if (gmtime_r(&seconds, &utc) != nullptr)
+        std::strftime(rig.calibrated_at, sizeof rig.calibrated_at, "%Y-%m-%dT%H:%M:%SZ", &utc);
+    return {};
+}
+
+} // namespace dicot::app
