@@ -7,8 +7,9 @@
 //   went by uvc_capture ladder FORMAT WIDTH HEIGHT FPS FRAMES CAMERA               shakes a camera that stops
 //   delivering uvc_capture controls CAMERA
 //
-// Two cameras stream at once. OUT_FOLDER/<camera>-<number>.<yuyv|mjpg|nv12|grey> holds the bytes; one line on standard
-// output for each frame: camera, number, verdict, bytes, sequence, lost, start, flaw. Exit code 0 when all frames came.
+// A CAMERA is a USB port or a serial number; "1-1@2" streams it through alternate setting 2. Two cameras stream at
+// once. OUT_FOLDER/<camera>-<number>.<yuyv|mjpg|nv12|grey> holds the bytes; one line on standard output for each frame:
+// camera, number, verdict, bytes, sequence, lost, start, flaw. Exit code 0 when all frames came.
 #include "dicot/os/clock.h"
 #include "dicot/os/heap_gate.h"
 #include "dicot/os/process_memory.h"
@@ -131,10 +132,13 @@ int capture(const std::string& out, const CameraMode& wanted, int fps, int frame
 {
     std::filesystem::create_directories(out);
     std::vector<Eye> eyes;
-    for (const std::string& name : names) {
+    for (const std::string& word : names) {
+        const std::string name = word.substr(0, word.find('@'));
         Result<std::unique_ptr<UvcCamera>> opened = UvcCamera::open(name);
         if (!opened.ok())
             return complain(opened.status());
+        if (name.size() < word.size())
+            opened.value()->use_alternate(static_cast<std::uint8_t>(std::atoi(word.c_str() + name.size() + 1)));
         eyes.push_back({name, std::move(opened).value(), 0, false});
     }
     for (Eye& eye : eyes) {

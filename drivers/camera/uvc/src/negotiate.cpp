@@ -111,12 +111,8 @@ Result<Agreement> agree(UsbPort& port, const UvcDevice& device, const CameraMode
             smaller.most_payload_bytes = bytes_of(setting);
             const StreamControl second = TRY(probe(port, device, smaller));
             TRY(check_answer(port, answer, second));
-            answer = second;
+            answer = second; // a camera that insists may still cut its payloads to the endpoint: its frames will tell
         }
-        if (answer.most_payload_bytes > bytes_of(setting))
-            return failure(Fault::kTryAgain,
-                           "the camera at USB port %s wants %u bytes an interval; alternate setting %u has %u",
-                           port.name(), answer.most_payload_bytes, unsigned{alternate}, bytes_of(setting));
     }
 
     std::array<std::byte, kMostStreamControlBytes> room{};

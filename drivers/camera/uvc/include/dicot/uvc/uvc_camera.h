@@ -47,8 +47,9 @@ public:
     /// must not be called while it streams. Fault::kTryAgain: it refuses the mode, or streams.
     Result<std::uint32_t> payload_bytes(const CameraMode& mode);
 
-    /// The alternate setting of the bandwidth plan, from the next start() on. The camera is then asked to make its
-    /// payloads fit; one that will not makes start() fail with Fault::kTryAgain. 0: the smallest setting that fits.
+    /// The alternate setting of the bandwidth plan, from the next start() on. The camera is asked to make its payloads
+    /// fit. Many that insist on larger ones cut them to the setting all the same; those that do not deliver torn frames
+    /// alone. 0: the smallest setting that fits.
     void use_alternate(std::uint8_t number) noexcept;
     /// The alternate setting in use; 0 while nothing streams and of bulk cameras.
     std::uint8_t alternate() const noexcept;
