@@ -151,7 +151,7 @@ product() {
 judge uvc.fault.product product
 say "left now forget"
 cycles() {
-    uvc_capture cycles YUYV 640 480 15 201 1-2 >said.log 2>&1
+    uvc_capture cycles YUYV 640 480 15 1001 1-2 >said.log 2>&1
     code=$?
     cat said.log
     [ $code = 0 ] || return
