@@ -185,6 +185,7 @@ cross() {
 vm() {
     count_lines sh tests/vm/selfcheck.sh || return
     count_lines sh tests/vm/v4l2.sh || return
+    count_lines sh tests/vm/uvc.sh || return
 }
 
 purposes="build quickstart test"
