@@ -5,13 +5,14 @@
 dicot_packages() {
     case $1 in
         build) echo "g++ cmake ninja-build pkg-config libpng-dev libjpeg62-turbo-dev libyaml-dev libmd-dev libcli11-dev
-            nlohmann-json3-dev libeigen3-dev libdraco-dev" ;;
+            nlohmann-json3-dev libeigen3-dev libdraco-dev libusb-1.0-0-dev" ;;
         quickstart) echo "libjpeg-turbo-progs" ;; # djpeg scales the pair
         # draco, pcl-tools: readers of others for our files; OpenCV: a yardstick beside ours
         test) echo "libgtest-dev libgmock-dev libopencv-calib3d-dev draco pcl-tools python3" ;;
         clang) echo "clang-14 libclang-rt-14-dev" ;;
         lint) echo "clang-format-14 clang-tidy-14 shellcheck" ;;
         cross) echo "g++-aarch64-linux-gnu g++-arm-linux-gnueabihf qemu-user mmdebstrap" ;;
+        vm) echo "g++-aarch64-linux-gnu mmdebstrap qemu-system-arm kmod cpio binutils" ;;
         *)
             echo "dicot: there is no purpose '$1' in toolchain/packages.sh" >&2
             return 64

@@ -3,7 +3,7 @@
 #
 #   sh toolchain/test.sh             everything: half an hour on two processors
 #   sh toolchain/test.sh --quick     the release build's tests and the rules of the house
-#   sh toolchain/test.sh STAGE ...   some of: release house accuracy lint clang asan tsan fuzz cross
+#   sh toolchain/test.sh STAGE ...   some of: release house accuracy lint clang asan tsan fuzz cross vm
 #
 # The last line says "N passed, N failed"; the exit code is 0 only if none failed. A stage that does not build, or that
 # runs no test at all, counts as a failure. Logs: .build/test-logs.
@@ -17,7 +17,7 @@ failed=0
 summary=
 not_run=
 
-all_stages="release house accuracy lint clang asan tsan fuzz cross"
+all_stages="release house accuracy lint clang asan tsan fuzz cross vm"
 case ${1:-} in
     '') stages=$all_stages ;;
     --quick) stages="release house" ;;
@@ -182,12 +182,20 @@ cross() {
     count_lines sh tests/system/cross_test.sh .build/release/platform/app/dicot "$@" || return
 }
 
+# The cameras of tests/support before the kernel's own driver, then dicot's drivers. A machine that does not boot is a
+# failure.
+vm() {
+    count_lines sh tests/vm/selfcheck.sh || return
+    count_lines sh tests/vm/v4l2.sh || return
+    count_lines sh tests/vm/uvc.sh || return
+}
+
 purposes="build quickstart test"
 for name in $stages; do
     case $name in
         lint) purposes="$purposes clang lint" ;;
         clang | fuzz) purposes="$purposes clang" ;;
-        cross) purposes="$purposes cross" ;;
+        cross | vm) purposes="$purposes $name" ;;
     esac
 done
 mkdir -p "$logs"

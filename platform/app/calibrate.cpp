@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -39,16 +40,39 @@ struct Words
     bool json = false;
 };
 
+/// Nothing stands beside a pipe or a device.
+bool takes_tables(const std::string& output)
+{
+    std::error_code error;
+    return !std::filesystem::exists(output, error) || std::filesystem::is_regular_file(output, error);
+}
+
 /// Looks at the outputs before the work.
-Status check(const Words& words, const CalibrationPlan& plan, const CalibrationRun& run)
+Status check(const Words& words, const CalibrationRun& run)
 {
     for (const SeenPair& pair : run.pairs)
-        TRY(check_distinct({pair.left_path, pair.right_path}, {words.output}));
-    for (const PictureSet& set : plan.sets)
-        TRY(check_distinct({set.folder}, {words.report}));
-    OutputFile can_be_written;
-    TRY(can_be_written.open(words.output.c_str()));
+        TRY(check_distinct({pair.left_path, pair.right_path}, {words.output, maps_path(words.output)}));
+    const auto folder_of = [](const std::string& path) { return std::filesystem::path(path).parent_path().string(); };
+    for (const SeenPair& pair : run.pairs) // its pictures would be the next run's
+        TRY(check_distinct({folder_of(pair.left_path), folder_of(pair.right_path)}, {words.report}));
+    if (words.output.ends_with(".maps"))
+        return failure(Fault::kUsage, "%s: that is the name of a rig's tables: end the rig file's name in .yaml",
+                       words.output.c_str());
+    OutputFile rig_can_be_written;
+    TRY(rig_can_be_written.open(words.output.c_str()));
+    if (takes_tables(words.output)) {
+        OutputFile tables_can_be_written;
+        TRY(tables_can_be_written.open(maps_path(words.output).c_str()));
+    }
     return words.report.empty() ? Status{} : make_folder(words.report);
+}
+
+bool several_boards(const CalibrationPlan& plan)
+{
+    const calibration::Board& first = plan.sets.front().boards.front();
+    return std::ranges::any_of(plan.sets, [&](const PictureSet& set) {
+        return std::ranges::any_of(set.boards, [&](const calibration::Board& board) { return !(board == first); });
+    });
 }
 
 /// What a verdict of redo says about the rig file.
@@ -95,11 +119,13 @@ Written write_outputs(const Words& words, const CalibrationRun& run, const Statu
     if (written.outcome.ok())
         written.outcome = write_rig_file(words.output.c_str(), run.rig);
     written.rig = written.outcome.ok();
-    if (written.rig) {
+    if (written.rig && takes_tables(words.output)) {
         const std::string maps = maps_path(words.output);
-        written.outcome = store_tables(run.rig, kCrop, words.output, maps).status();
-        if (written.outcome.ok())
+        const Status stored = store_tables(run.rig, kCrop, words.output, maps).status();
+        if (stored.ok())
             written.maps = maps;
+        else
+            std::fprintf(stderr, "dicot: %s; the tables will be built whenever they are needed\n", stored.message());
     }
     return written;
 }
@@ -147,10 +173,12 @@ Status run(const Words& words)
     plan.sets = TRY(read_board_words(words.boards));
     if (!(plan.range.near_mm > 0 && plan.range.near_mm < plan.range.far_mm && plan.range.far_mm <= 1e6))
         return failure(Fault::kUsage, "--near-mm must be above 0 and below --far-mm, which is 1000000 at most");
+    if (plan.fit_warp && several_boards(plan))
+        return failure(Fault::kUsage, "--fit-warp finds the bow of one board: calibrate with one board alone");
     CalibrationRun run;
     TRY(date_rig(run.rig));
     TRY(list_pairs(plan, run));
-    TRY(check(words, plan, run));
+    TRY(check(words, run));
 
     const int threads = words.threads > 0 ? words.threads : std::min(ThreadCrew::processors(), ThreadCrew::kMaxThreads);
     ThreadCrew crew(threads);
@@ -183,7 +211,8 @@ void add_calibrate(CLI::App& program, Command& chosen)
     command->add_option("--near-mm", words->plan.range.near_mm, "where the plants begin")->capture_default_str();
     command->add_option("--far-mm", words->plan.range.far_mm, "where they end")->capture_default_str();
     command->add_flag("--fit-k3", words->plan.fit_k3, "fit the third radial distortion too, for wide lenses");
-    command->add_flag("--fit-warp", words->plan.fit_warp, "fit a bow of the board, for one that is not flat");
+    command->add_flag("--fit-warp", words->plan.fit_warp,
+                      "fit a bow of the board, for one that is not flat; one board only");
     command
         ->add_option("--threads", words->threads, "worker threads; 0: one for each processor. Never changes the result")
         ->check(CLI::Range(0, ThreadCrew::kMaxThreads))

@@ -5,6 +5,7 @@
 #include "process_bench.h"
 #include "progress.h"
 #include "rectify_rig.h"
+#include "rig_source.h"
 #include "sealed_heap.h"
 #include "take_picture.h"
 
@@ -129,7 +130,7 @@ Result<Plan> make_plan(const Words& words)
     Plan plan;
     plan.kernels = TRY(choose_kernels(words.match.cpu));
     plan.threads = words.match.resolved_threads();
-    RigFile rig = TRY(read_rig_file(words.rig.c_str()));
+    RigFile rig = TRY(read_rig_for_use(words.rig));
     TRY(check_size(words.left, words.rig, rig));
     TRY(check_size(words.right, words.rig, rig));
     if (describes_cameras(rig))

@@ -1,13 +1,17 @@
 // dicot rectify: a pair as the cameras gave it in, the same pair with parallel rows out.
 #include "commands.h"
+#include "distinct_files.h"
 #include "match_words.h"
 #include "output_folder.h"
 #include "rectify_rig.h"
+#include "rig_source.h"
+#include "stored_maps.h"
 #include "take_picture.h"
 
 #include "dicot/os/clock.h"
 #include "dicot/picture/read_picture.h"
 #include "dicot/picture/write_picture.h"
+#include "dicot/rig/rig_id.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -66,7 +70,10 @@ void draw_proof(ImageView<const Rgb8> left, ImageView<const Rgb8> right, ImageVi
 Status run(const Words& words)
 {
     const Kernels* kernels = TRY(choose_kernels(words.cpu));
-    RigFile rig = TRY(read_rig_file(words.rig.c_str()));
+    const std::string at = words.folder + "/";
+    TRY(check_distinct({words.left, words.right, words.rig, maps_path(words.rig)},
+                       {at + "left.png", at + "right.png", at + "mask.png", at + "proof.png", at + "rig.yaml"}));
+    RigFile rig = TRY(read_rig_for_use(words.rig));
     TRY(check_size(words.left, words.rig, rig));
     TRY(check_size(words.right, words.rig, rig));
     const RectifyTables tables = TRY(RectifyTables::load_or_build(rig, words.keep, words.rig.c_str()));
@@ -97,7 +104,6 @@ Status run(const Words& words)
     const double remap_ms = static_cast<double>(monotonic_us() - start_us) * 1e-3;
 
     TRY(make_folder(words.folder));
-    const std::string at = words.folder + "/";
     TRY(write_png((at + "left.png").c_str(), pictures.left));
     TRY(write_png((at + "right.png").c_str(), pictures.right));
     draw_mask(tables, pictures.raw_left, pictures.row);
@@ -113,6 +119,7 @@ Status run(const Words& words)
         flat.left.rectifying = flat.right.rectifying = std::nullopt;
         flat.rotation = std::nullopt;
         flat.translation_mm = std::nullopt;
+        set_id(flat);
         return flat;
     }()));
 

@@ -1,4 +1,5 @@
 // dicot rig convert: a rig in the words of other programs.
+#include "distinct_files.h"
 #include "rig_commands.h"
 #include "rig_source.h"
 
@@ -50,6 +51,11 @@ Status convert(const Words& words)
         return failure(Fault::kUsage, "rig convert: say what to write: --ros FOLDER or --opencv FILE");
     if (!words.ros.empty() && !is_folder(words.ros))
         return failure(Fault::kCannotCreate, "%s: no such folder: make it first", words.ros.c_str());
+    const std::string at = words.ros.empty() ? std::string{} : words.ros + "/";
+    const auto in_source = [&](const char* name) { return is_folder(words.rig) ? words.rig + "/" + name : words.rig; };
+    TRY(check_distinct(
+        {in_source("left.yaml"), in_source("right.yaml"), in_source("intrinsics.yml"), in_source("extrinsics.yml")},
+        {at.empty() ? at : at + "left.yaml", at.empty() ? at : at + "right.yaml", words.opencv}));
     const RigHints hints = TRY(hints_of(words));
     RigFile rig = TRY(read_whole_rig(words.rig, hints));
     if (rig.id[0] == '\0')
@@ -79,6 +85,8 @@ void add_rig_convert(CLI::App& rig, Command& chosen)
         ->add_option("--unit-mm", words->mm_per_unit,
                      "mm in one unit of length, where the source does not say it: 1000 for metres")
         ->each([words](const std::string&) { words->unit_given = true; });
+    command->footer("A folder of OpenCV's stereo_calib says neither size nor unit:\n"
+                    "  dicot rig convert FOLDER --size 640x480 --unit-mm 25 --opencv RIG.yaml");
     command->callback([words, &chosen] { chosen = [words] { return convert(*words); }; });
 }
 

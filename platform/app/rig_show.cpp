@@ -89,7 +89,11 @@ nlohmann::json as_json(const RigFile& rig, const RigGeometry* geometry)
 
 Status show(const Words& words)
 {
-    const RigFile rig = TRY(read_whole_rig(words.rig));
+    RigFile rig = TRY(read_whole_rig(words.rig));
+    if (describes_cameras(rig)) { // what dicot makes of them, whatever R1 R2 P1 P2 in the file are
+        const StereoRig stereo = TRY(stereo_rig_of(rig, words.rig.c_str()));
+        set_rectification(rig, TRY(rectify(stereo, kCrop, words.rig.c_str())));
+    }
     const bool stands = rig.left.projection || rig.right.projection;
     const RigGeometry geometry = stands ? TRY(geometry_of(rig, words.rig.c_str())) : RigGeometry{};
     if (words.json) {

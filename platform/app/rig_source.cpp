@@ -4,18 +4,35 @@
 
 #include "dicot/os/shown_path.h"
 #include "dicot/rig/opencv_files.h"
+#include "dicot/rig/rig_id.h"
 #include "dicot/rig/ros_files.h"
 
+#include <cstdio>
+#include <optional>
 #include <sys/stat.h>
 
 namespace dicot::app {
 
 namespace {
 
+RigFile truly_named(RigFile rig, const std::string& path)
+{
+    if (id_matches(rig))
+        return rig;
+    const std::string said = rig.id;
+    set_id(rig);
+    rig.quality = std::nullopt;
+    std::fprintf(stderr,
+                 "dicot: %s: its numbers were changed after it was named %s: they are %s, and its verdict is not "
+                 "theirs\n",
+                 shown_path(path.c_str()), said.c_str(), rig.id);
+    return rig;
+}
+
 Result<RigFile> read_any(const std::string& path, const RigHints& hints)
 {
     if (!is_folder(path))
-        return read_rig_file(path.c_str(), hints);
+        return truly_named(TRY(read_rig_file(path.c_str(), hints)), path);
     if (holds_opencv_files(path))
         return read_opencv_files(path, hints);
     if (hints.width != 0 || hints.mm_per_unit != 0)
@@ -26,6 +43,11 @@ Result<RigFile> read_any(const std::string& path, const RigHints& hints)
 }
 
 } // namespace
+
+Result<RigFile> read_rig_for_use(const std::string& path)
+{
+    return truly_named(TRY(read_rig_file(path.c_str())), path);
+}
 
 bool is_folder(const std::string& path)
 {

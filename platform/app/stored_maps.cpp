@@ -28,7 +28,7 @@ Result<RigMaps> read_file(const std::string& path, const StereoRig& rig, double 
 std::string maps_path(const std::string& rig_path)
 {
     std::string stem = rig_path;
-    for (const char* ending : {".yaml", ".yml", ".xml"})
+    for (const char* ending : {".yaml", ".yml"})
         if (stem.ends_with(ending)) {
             stem.resize(stem.size() - std::string(ending).size());
             break;

@@ -8,7 +8,7 @@
 
 namespace dicot::app {
 
-/// RIG.yaml -> RIG.maps: a .yaml, .yml or .xml at the end gives way, anything else stays.
+/// RIG.yaml -> RIG.maps: a .yaml or .yml at the end gives way, anything else stays.
 std::string maps_path(const std::string& rig_path);
 
 /// What was stored.

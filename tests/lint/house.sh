@@ -80,8 +80,8 @@ door 'png\.h' platform/picture
 door 'j(peglib|error)\.h' platform/picture
 door 'CLI/' platform/app
 door 'nlohmann/' platform/app
-door 'linux/videodev2\.h' drivers
-door 'libusb' drivers
+door 'linux/videodev2\.h' drivers/camera/v4l2
+door 'libusb' '(drivers/camera/uvc|drivers/usb)'
 door 'opencv2/' tests
 
 judge "no exception of our own: throw stands at the heap gate alone" \

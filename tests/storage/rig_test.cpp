@@ -264,8 +264,9 @@ std::string quality(const std::string& key, const std::string& value)
 }
 
 const Refusal kRefusals[] = {
-    {"Empty", "", "no rig's description"},
-    {"HeaderOnly", "%YAML:1.0", "no rig's description"},
+    {"Empty", "", "nothing stands in it"},
+    {"HeaderOnly", "%YAML:1.0", "nothing stands in it"},
+    {"Xml", "<?xml version=\"1.0\"?>\n<opencv_storage>", "XML is not read"},
     {"Binary", std::string("\x89PNG\r\n\x1a\n\0\0", 10), "line 1"},
     {"NoMap", "%YAML:1.0\n---\n- 1\n- 2\n", "no rig's description"},
     {"NoSize", "%YAML:1.0\n---\n" + kP1 + kP2, "image_width"},

@@ -361,5 +361,54 @@ TEST(CalibrateRefusal, LooksAtTheOutputBeforeTheWork)
     EXPECT_EQ(folder.files(), 2U);
 }
 
+TEST(CalibrateRefusal, KeepsTheFormerRigWhereItsTablesCannotStand)
+{
+    const TempFolder folder;
+    photograph_pairs(folder, varied_places());
+    const TempFolder out;
+    const std::string rig = out.write("rig.yaml", std::string("what was there before"));
+    std::filesystem::create_directory(out.path("rig.maps"));
+    const ToolRun run = dicot("calibrate --force " + in(folder) + kBoardWords + "-o " + rig);
+    EXPECT_EQ(run.exit_code, 73) << run.output;
+    EXPECT_TRUE(contains(run.output, "rig.maps")) << run.output;
+    const test::Bytes bytes = test::bytes_of(rig);
+    EXPECT_EQ(std::string(bytes.begin(), bytes.end()), "what was there before");
+    EXPECT_EQ(dicot("calibrate --force " + in(folder) + kBoardWords + "-o " + out.path("other.maps")).exit_code, 64);
+}
+
+TEST(CalibrateCommand, WritesToAPipeWithoutTables)
+{
+    const TempFolder folder;
+    photograph_pairs(folder, varied_places());
+    const ToolRun run = dicot("calibrate --force " + in(folder) + kBoardWords + "-o /dev/stdout");
+    EXPECT_EQ(run.exit_code, 0) << run.output;
+    EXPECT_TRUE(contains(run.output, "calibration_time")) << run.output;
+    EXPECT_FALSE(std::filesystem::exists("/dev/stdout.maps"));
+}
+
+TEST(CalibrateCommand, TellsFoldersOfOneNameApart)
+{
+    const TempFolder folder;
+    for (const char* name : {"p/x", "q/x"})
+        std::filesystem::create_directories(folder.path(name));
+    for (const char* name : {"p/x/left1.pgm", "p/x/right1.pgm", "q/x/left1.pgm", "q/x/right1.pgm"})
+        picture_of_nothing(folder.path(name), 200, 150);
+    const ToolRun run = dicot("calibrate --images " + folder.path("p/x") + " --images " + folder.path("q/x") +
+                              kBoardWords + "-o " + folder.path("rig.yaml"));
+    EXPECT_EQ(run.exit_code, 65);
+    EXPECT_TRUE(contains(run.output, "p/x/left1.pgm") && contains(run.output, "q/x/left1.pgm")) << run.output;
+}
+
+TEST(CalibrateCommand, TheBowBelongsToOneBoard)
+{
+    const TempFolder folder;
+    const ToolRun run = dicot("calibrate --fit-warp " + in(folder) +
+                              " --corners 7x5 --square-mm 30 --corners 9x6 "
+                              "--square-mm 20 -o " +
+                              folder.path("rig.yaml"));
+    EXPECT_EQ(run.exit_code, 64);
+    EXPECT_TRUE(contains(run.output, "bow of one board")) << run.output;
+}
+
 } // namespace
 } // namespace dicot

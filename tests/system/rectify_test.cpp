@@ -57,6 +57,24 @@ TEST(RectifyCommand, APictureOfAnotherSizeIsRefusedAndNothingIsWritten)
     EXPECT_FALSE(std::filesystem::exists(folder.path("flat")));
 }
 
+TEST(RectifyCommand, NeverWritesOverWhatItReads)
+{
+    const TempFolder folder;
+    const std::string left = picture(folder, "left.png", 1280, 720), right = picture(folder, "r.pgm", 1280, 720);
+    std::filesystem::copy_file(DICOT_UNRECTIFIED_RIG, folder.path("rig.yaml"));
+    const Bytes rig = test::bytes_of(folder.path("rig.yaml")), seen = test::bytes_of(left);
+    std::filesystem::create_directory(folder.path("other"));
+    std::filesystem::copy_file(DICOT_UNRECTIFIED_RIG, folder.path("other/rig.yaml"));
+    for (const std::string& words :
+         {left + " " + right + " --rig " + folder.path("other/rig.yaml") + " -o " + folder.path(""),
+          left + " " + right + " --rig " + folder.path("rig.yaml") + " -o " + folder.path("")}) {
+        const ToolRun run = dicot("rectify " + words);
+        EXPECT_EQ(run.exit_code, 64) << run.output;
+    }
+    EXPECT_EQ(test::bytes_of(folder.path("rig.yaml")), rig);
+    EXPECT_EQ(test::bytes_of(left), seen);
+}
+
 TEST(RigCommand, RosAndBackIsEqualTo1e9)
 {
     const TempFolder folder;

@@ -102,5 +102,49 @@ TEST(RigCommand, OneCameraOfOpenCvsSampleIsShown)
     EXPECT_EQ(run.output.find("nan"), std::string::npos) << run.output;
 }
 
+TEST(RigCommand, AnEmptyFileIsRefusedWithASentence)
+{
+    const TempFolder folder;
+    const std::string empty = folder.write("rig.yaml", std::string{});
+    for (const std::string& words : {"rig show " + empty, "rig tables " + empty, "info " + empty}) {
+        const ToolRun run = dicot(words);
+        EXPECT_EQ(run.exit_code, 65) << words << "\n" << run.output;
+        EXPECT_NE(run.output.find("rig.yaml"), std::string::npos) << run.output;
+    }
+    write_sample(folder);
+    folder.write("sample/intrinsics.yml", std::string{});
+    EXPECT_EQ(dicot("rig show " + folder.path("sample")).exit_code, 65);
+    std::filesystem::create_directory(folder.path("ros"));
+    ASSERT_EQ(dicot("rig convert " DICOT_UNRECTIFIED_RIG " --ros " + folder.path("ros")).exit_code, 0);
+    folder.write("ros/right.yaml", std::string{});
+    EXPECT_EQ(dicot("rig show " + folder.path("ros")).exit_code, 65);
+}
+
+TEST(RigCommand, NoOutputIsItsOwnSource)
+{
+    const TempFolder folder;
+    std::filesystem::create_directory(folder.path("ros"));
+    ASSERT_EQ(dicot("rig convert " DICOT_UNRECTIFIED_RIG " --ros " + folder.path("ros")).exit_code, 0);
+    const test::Bytes before = test::bytes_of(folder.path("ros/left.yaml"));
+    for (const std::string& output : {"--opencv " + folder.path("ros/left.yaml"), "--ros " + folder.path("ros")})
+        EXPECT_EQ(dicot("rig convert " + folder.path("ros") + " " + output).exit_code, 64) << output;
+    EXPECT_EQ(test::bytes_of(folder.path("ros/left.yaml")), before);
+}
+
+TEST(RigCommand, NumbersThatWereChangedByHandGetTheirOwnId)
+{
+    const TempFolder folder;
+    const std::string path = folder.path("rig.yaml");
+    RigFile rig = read_rig_file(DICOT_UNRECTIFIED_RIG).value();
+    set_id(rig);
+    const std::string named = rig.id;
+    (*rig.left.intrinsic)[0][0] += 1;
+    ASSERT_TRUE(write_rig_file(path.c_str(), rig).ok());
+    const ToolRun run = dicot("rig show " + path);
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_NE(run.output.find("changed after it was named " + named), std::string::npos) << run.output;
+    EXPECT_NE(run.output.find("id " + std::string(rig_id_of(rig).data())), std::string::npos) << run.output;
+}
+
 } // namespace
 } // namespace dicot

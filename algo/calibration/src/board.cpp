@@ -14,6 +14,8 @@ namespace dicot::calibration {
 
 namespace {
 
+constexpr double kLeastSquare_mm = 0.1;
+constexpr double kMostSquare_mm = 1e5;
 constexpr double kSearchSigma_px = 1.4;
 constexpr double kRefineSigma_px = 1.0;
 constexpr std::size_t kMostSaddles = 2500;
@@ -104,7 +106,7 @@ Status check_board(const Board& board)
     if (std::min(board.cols, board.rows) < kMinBoardSide || std::max(board.cols, board.rows) > kMaxBoardSide)
         return failure(Fault::kUsage, "a board of %d x %d inner corners cannot be used; give %d to %d a side",
                        board.cols, board.rows, kMinBoardSide, kMaxBoardSide);
-    if (!(board.square_mm > 0 && board.square_mm < 1e5))
+    if (!(board.square_mm >= kLeastSquare_mm && board.square_mm <= kMostSquare_mm))
         return failure(Fault::kUsage, "a square of %g mm cannot be used; measure the side of one square",
                        board.square_mm);
     return {};
@@ -112,8 +114,9 @@ Status check_board(const Board& board)
 
 namespace {
 
-/// Looks through the levels; what came nearest when none shows the whole board.
-BoardSight search(ImageView<const std::uint8_t> grey, const Board& board)
+/// Looks through the levels of `grey`, a relit copy of `original` or the same; what came nearest when none shows the
+/// whole board.
+BoardSight search(ImageView<const std::uint8_t> grey, ImageView<const std::uint8_t> original, const Board& board)
 {
     LevelSearch nearest;
     bool blurred = false;
@@ -127,7 +130,9 @@ BoardSight search(ImageView<const std::uint8_t> grey, const Board& board)
             CornerGrid grid = upright(std::move(*search.grid), board);
             for (Point2& corner : grid.corners)
                 corner = {scale * (corner.x + 0.5) - 0.5, scale * (corner.y + 0.5) - 0.5};
-            if (refine_grid(smooth(grey, kRefineSigma_px * std::sqrt(scale)), scale, grid))
+            const double sigma_px = kRefineSigma_px * std::sqrt(scale);
+            if (refine_grid(smooth(original, sigma_px), scale, grid) ||
+                (grey.data != original.data && refine_grid(smooth(grey, sigma_px), scale, grid)))
                 return as_sight(std::move(grid));
             blurred = true;
         }
@@ -145,9 +150,9 @@ BoardSight find_board(ImageView<const std::uint8_t> grey, const Board& board)
 {
     if (std::string reason = explain_picture(grey); !reason.empty())
         return unseen(std::move(reason));
-    BoardSight sight = search(grey, board);
+    BoardSight sight = search(grey, grey, board);
     if (!sight.found)
-        if (BoardSight again = search(relit(grey, grey_range(grey)).view(), board); again.found)
+        if (BoardSight again = search(relit(grey, grey_range(grey)).view(), grey, board); again.found)
             return again;
     return sight;
 }

@@ -132,10 +132,10 @@ std::string explain_miss(const Lattice& best, bool larger_board, const Board& bo
     const bool rows_missing = rows < board.rows;
     const bool cols_missing = cols < board.cols;
     if (!rows_missing && !cols_missing && static_cast<int>(best.size()) >= board.corner_count())
-        return "the board is there, but shadows, glare or dirt look like corners of it";
+        return "the board is there, but shadows, glare or dirt look like corners of it, or --corners is wrong";
     if (!rows_missing && !cols_missing)
-        return text("%zu of %d corners found; the others are hidden, in glare or too dark", best.size(),
-                    board.corner_count());
+        return text("%zu of %d corners found; the others are hidden, in glare or too dark, or --corners is wrong",
+                    best.size(), board.corner_count());
 
     std::string reason;
     if (rows_missing)
@@ -155,7 +155,7 @@ std::string explain_miss(const Lattice& best, bool larger_board, const Board& bo
     }
     if (!cut.empty())
         return reason + "board cut off " + cut;
-    return reason + "the others are hidden, in glare or too dark, or the board is a smaller one";
+    return reason + "the others are hidden, in glare or too dark, or the board is a smaller one: check --corners";
 }
 
 } // namespace dicot::calibration

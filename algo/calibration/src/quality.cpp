@@ -125,15 +125,14 @@ void judge(const StereoCalibration& calibration, const WorkingRange& range, Qual
         text("rows of the two pictures miss each other by %.2f px: take sharp pictures at the same moment, with a flat "
              "board",
              quality.epipolar_rms_px));
-    for (const DepthError& depth : quality.depth)
-        if (depth.distance_mm == 800) {
-            const double percent = 100 * depth.calibration_mm / depth.distance_mm;
-            gate(
-                percent <= kDepthGate_percent.good, percent <= kDepthGate_percent.usable,
-                text("depth at %.0f mm is uncertain by %.1f mm: take more pairs, the board tilted by 20 to 40 degrees, "
-                     "near and far",
-                     depth.distance_mm, depth.calibration_mm));
-        }
+    const DepthError& far = quality.depth_at_far;
+    const double far_percent = 100 * far.calibration_mm / far.distance_mm;
+    gate(
+        far_percent <= kDepthGate_percent.good, far_percent <= kDepthGate_percent.usable,
+        text(
+            "depth at %.0f mm is uncertain by %.1f mm: take more pairs, the board tilted by 20 to 40 degrees, near and "
+            "far",
+            far.distance_mm, far.calibration_mm));
     gate(quality.held_out_size_percent <= kDepthGate_percent.good,
          quality.held_out_size_percent <= kDepthGate_percent.usable,
          text("boards that were held out come out %.2f %% wrong in size: take more pairs at different distances and "
@@ -183,6 +182,7 @@ Quality assess(const CalibrationTask& task, const StereoCalibration& calibration
     measure_epipolar(task, calibration, quality);
     for (const double distance_mm : kDistances_mm)
         quality.depth.push_back(predict_depth_error(calibration, distance_mm));
+    quality.depth_at_far = predict_depth_error(calibration, range.far_mm);
     count_coverage(task, calibration, quality);
     count_distances(task, calibration, range, quality);
     judge(calibration, range, quality);

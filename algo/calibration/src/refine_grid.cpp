@@ -166,7 +166,10 @@ bool lies_straight(const CornerGrid& grid)
 bool refine_grid(const GreyLevel& level, double scale, CornerGrid& grid)
 {
     const CornerGrid found = grid;
-    return Refinement(level, scale, found).run(grid) && lies_straight(grid);
+    if (Refinement(level, scale, found).run(grid) && lies_straight(grid))
+        return true;
+    grid = found;
+    return false;
 }
 
 } // namespace dicot::calibration

@@ -14,6 +14,8 @@ const char* name_of(PixelFormat format) noexcept
         return "NV12";
     case PixelFormat::kGrey:
         return "GREY";
+    case PixelFormat::kRgb24:
+        return "RGB24";
     }
     return "?";
 }
@@ -41,6 +43,8 @@ std::size_t frame_bytes(const CameraMode& mode) noexcept
         return pixels * 3 / 2;
     case PixelFormat::kGrey:
         return pixels;
+    case PixelFormat::kRgb24:
+        return 3 * pixels;
     case PixelFormat::kMjpeg:
         return 0;
     }

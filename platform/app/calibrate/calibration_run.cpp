@@ -221,7 +221,9 @@ Status list_pairs(const CalibrationPlan& plan, CalibrationRun& run)
     for (std::size_t s = 0; s < plan.sets.size(); ++s) {
         const std::string& folder = plan.sets[s].folder;
         PairedNames names = TRY(pairs_in_folder(folder));
-        const std::string prefix = plan.sets.size() > 1 ? last_part(folder) + "/" : "";
+        const auto namesakes = std::ranges::count(plan.sets, last_part(folder),
+                                                  [](const PictureSet& set) { return last_part(set.folder); });
+        const std::string prefix = plan.sets.size() == 1 ? "" : (namesakes > 1 ? folder : last_part(folder)) + "/";
         for (const PicturePair& names_of_pair : names.pairs) {
             SeenPair pair;
             pair.set = static_cast<int>(s);

@@ -133,6 +133,8 @@ void print_run(const CalibrationRun& run)
     print_pairs(run);
     if (run.solved)
         print_result(run);
+    else
+        std::printf("\nverdict: %s\n", name_of(calibration::Verdict::kRedo));
 }
 
 json as_json(const CalibrationRun& run)
@@ -148,8 +150,11 @@ json as_json(const CalibrationRun& run)
     for (const LonePicture& lone : run.alone)
         report["alone"].push_back({{"picture", lone.name}, {"reason", lone.reason}});
     report["found_s"] = run.finding_s;
-    if (!run.solved)
+    if (!run.solved) {
+        report["verdict"] = name_of(calibration::Verdict::kRedo);
+        report["advice"] = run.quality.advice;
         return report;
+    }
     const calibration::StereoCalibration& c = run.calibration;
     report.update({{"solved_s", run.solving_s},
                    {"pairs_used", c.pairs_used},

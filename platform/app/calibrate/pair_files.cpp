@@ -150,16 +150,17 @@ Status why_no_pair(const std::string& folder, const PairedNames& names, bool has
     if (names.lefts > 0 && names.rights == 0)
         return failure(Fault::kNoInput,
                        "%s: %d pictures of the left camera and none of the right one: both are needed, as left01.jpg "
-                       "and right01.jpg",
+                       "and right01.jpg, or in folders left and right of one folder that --images names",
                        path, names.lefts);
     if (names.rights > 0 && names.lefts == 0)
         return failure(Fault::kNoInput,
                        "%s: %d pictures of the right camera and none of the left one: both are needed, as left01.jpg "
-                       "and right01.jpg",
+                       "and right01.jpg, or in folders left and right of one folder that --images names",
                        path, names.rights);
     return failure(Fault::kNoInput,
-                   "%s: no pair among %zu pictures (%.60s: %.100s): name them left01.jpg and right01.jpg", path,
-                   names.alone.size(), names.alone.front().name.c_str(), names.alone.front().reason.c_str());
+                   "%s: no pair among %zu pictures (%.60s: %.100s): name them left01.jpg and right01.jpg, or "
+                   "give the folder that holds the folders left and right",
+                   path, names.alone.size(), names.alone.front().name.c_str(), names.alone.front().reason.c_str());
 }
 
 } // namespace

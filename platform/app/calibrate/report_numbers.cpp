@@ -157,11 +157,13 @@ std::string verdict_section(const CalibrationRun& run)
 
 std::string millimetres_section(const CalibrationRun& run)
 {
-    std::string html = fill(
-        "<h2 id=\"millimetres\">In millimetres</h2>\n<p>How far off a depth is expected to be because of this "
-        "calibration: one standard deviation, over the part that both cameras see. At 800 mm, {} % of the distance "
-        "are good and {} % usable.</p>\n<div class=\"tiles\">\n",
-        {fixed(calibration::kDepthGate_percent.good, 1), fixed(calibration::kDepthGate_percent.usable, 1)});
+    std::string html =
+        fill("<h2 id=\"millimetres\">In millimetres</h2>\n<p>How far off a depth is expected to be because of this "
+             "calibration: one standard deviation, over the part that both cameras see. At the "
+             "far end of the working range, {} mm, {} % of the distance are good and {} % usable: here ± {} "
+             "mm.</p>\n<div class=\"tiles\">\n",
+             {fixed(run.range.far_mm, 0), fixed(calibration::kDepthGate_percent.good, 1),
+              fixed(calibration::kDepthGate_percent.usable, 1), fixed(run.quality.depth_at_far.calibration_mm, 2)});
     for (const calibration::DepthError& depth : run.quality.depth)
         html +=
             fill("<div class=\"tile\"><span>at {} mm</span><b>± {} <small>mm</small></b><span>{} % of the distance; "

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "byte_source.h"
+#include "dicot/picture/jpeg_luma.h"
 #include "dicot/picture/read_picture.h"
 
 #include <cstdint>
@@ -13,6 +14,7 @@ struct PictureRequest
 {
     const ImageView<Rgb8>* into = nullptr; ///< null: the size alone
     PictureSize size{};                    ///< the answer
+    const LumaRowSink* luma = nullptr;     ///< of a JPEG: block luma instead of pixels
 };
 
 /// Notes the size that the header tells. Fails above the limits, and where `into` has another size. Decoders call it

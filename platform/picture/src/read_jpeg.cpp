@@ -144,6 +144,26 @@ void read_pixels(JpegRead& read)
     jpeg_finish_decompress(&jpeg);
 }
 
+void read_luma(JpegRead& read)
+{
+    jpeg_decompress_struct& jpeg = read.jpeg;
+    jpeg.dct_method = JDCT_ISLOW;
+    jpeg.do_block_smoothing = FALSE;
+    jpeg.out_color_space = JCS_GRAYSCALE;
+    jpeg.scale_num = 1;
+    jpeg.scale_denom = 8;
+    jpeg_start_decompress(&jpeg);
+    JSAMPLE blocks[(kMaxPictureSide + 7) / 8];
+    if (jpeg.output_width > sizeof blocks)
+        leave(read, damaged(read.source.name(), "it is wider than it says"));
+    while (jpeg.output_scanline < jpeg.output_height) {
+        JSAMPROW row = blocks;
+        jpeg_read_scanlines(&jpeg, &row, 1);
+        read.request.luma->take(read.request.luma->object, {blocks, jpeg.output_width});
+    }
+    jpeg_finish_decompress(&jpeg);
+}
+
 void run(JpegRead& read)
 {
     if (setjmp(read.escape) != 0)
@@ -171,7 +191,9 @@ void run(JpegRead& read)
     if (jpeg.jpeg_color_space == JCS_CMYK || jpeg.jpeg_color_space == JCS_YCCK)
         leave(read, failure(Fault::kBadData, "%s: is a CMYK JPEG, made for printing; convert it to RGB",
                             shown_path(read.source.name())));
-    if (read.request.into != nullptr)
+    if (read.request.luma != nullptr)
+        read_luma(read);
+    else if (read.request.into != nullptr)
         read_pixels(read);
 }
 

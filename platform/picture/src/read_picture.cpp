@@ -56,6 +56,15 @@ Status decode(ByteSource& source, PictureRequest& request) noexcept
 
 } // namespace
 
+Result<PictureSize> jpeg_luma(std::span<const std::byte> file, const char* name, LumaRowSink sink) noexcept
+{
+    constexpr Format<PictureRequest> kJpeg[] = {{"\xff\xd8\xff", &decode_jpeg}};
+    ByteSource source{file, name};
+    PictureRequest request{.luma = &sink};
+    TRY(decode_by_magic<PictureRequest>(source, kJpeg, request, "take the picture again", "is no JPEG"));
+    return request.size;
+}
+
 Result<PictureSize> picture_size(const char* path) noexcept
 {
     InputFile file;

@@ -30,6 +30,12 @@ YamlEvents::YamlEvents(std::span<const std::byte> text, const char* name) : name
         status_ = failure(Fault::kOsError, "%s: no memory to read it", shown_path(name_));
         return;
     }
+    if (rest.empty())
+        status_ = failure(Fault::kBadData, "%s: nothing stands in it: take a copy of it, or calibrate again",
+                          shown_path(name_));
+    else if (rest.front() == '<')
+        status_ = failure(Fault::kBadData, "%s: XML is not read: have OpenCV write it as .yml", shown_path(name_));
+    rest = status_.ok() ? rest : std::string_view{" "}; // the parser wants something
     yaml_parser_set_input_string(&parser_, reinterpret_cast<const unsigned char*>(rest.data()), rest.size());
     next();
 }

@@ -50,7 +50,7 @@ struct Gate
     Number usable;
 };
 constexpr Gate<double> kEpipolarGate_px{0.25, 0.6};
-/// Of the distance: the expected depth error at 800 mm, and the size of held-out boards.
+/// Of the distance: the expected depth error at the far end of the working range, and the size of held-out boards.
 constexpr Gate<double> kDepthGate_percent{0.3, 1.5};
 constexpr Gate<int> kPairsGate{10, 6};
 constexpr Gate<double> kCoverageGate{0.55, 0.25}; ///< share of the cells, of the thinner picture
@@ -70,6 +70,7 @@ struct Quality
     double epipolar_p95_px = 0;
 
     std::vector<DepthError> depth; ///< at 500, 800 and 1000 mm
+    DepthError depth_at_far;       ///< at the far end of the working range
 
     Coverage left;
     Coverage right;

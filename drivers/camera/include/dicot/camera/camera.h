@@ -50,7 +50,9 @@ enum class Shake : std::uint8_t
 class Camera : public FrameOwner
 {
 public:
-    static constexpr int kMostCallMs = 5000;
+    /// Above the sum of what one call can run into, each with the kernel's own bound: SET_INTERFACE (5 s, up to three
+    /// times), a port reset, and the driver's own waits.
+    static constexpr int kMostCallMs = 30'000;
 
     virtual ~Camera() = default;
 

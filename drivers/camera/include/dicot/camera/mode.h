@@ -11,8 +11,9 @@ enum class PixelFormat : std::uint8_t
 {
     kYuyv, ///< Y0 U Y1 V, 16 bits a pixel (USB Video Payload Uncompressed, GUID YUY2)
     kMjpeg,
-    kNv12, ///< a plane of Y, then a plane of U V pairs at half the size each way
-    kGrey, ///< 8 bits (V4L2's GREY, UVC's Y800)
+    kNv12,  ///< a plane of Y, then a plane of U V pairs at half the size each way
+    kGrey,  ///< 8 bits (V4L2's GREY, UVC's Y800)
+    kRgb24, ///< R G B, 8 bits each: recorded pictures, which are to arrive as they are
 };
 const char* name_of(PixelFormat format) noexcept;
 

@@ -1,0 +1,71 @@
+#!/bin/sh
+# Boots the virtual machine with an image of image.sh and judges what it reports.
+#
+#   sh tests/vm/run.sh IMAGE --timeout SECONDS [--out FOLDER] [--log FILE]
+#
+# FOLDER gets what the script left in /out, FILE the serial console (by default IMAGE.log). Prints a line "ok" or "FAILED"
+# for each test. Exit code 1, with the end of the log, when the machine did not come to its end in time, a test failed, an
+# expected one did not report, or the kernel complained.
+#
+# The machine is emulated, never virtualised: a /dev/kvm that opens is no sign that a kernel boots on it (under some
+# hypervisors it does not), and emulation is the same everywhere.
+set -u
+
+image=${1:?run.sh: name the image}
+shift
+timeout_s='' out='' log=$image.log
+while [ $# -gt 1 ]; do
+    case $1 in
+        --timeout) timeout_s=$2 ;;
+        --out) out=$2 ;;
+        --log) log=$2 ;;
+        *) echo "run.sh: '$1' is no option; see its first lines" >&2; exit 64 ;;
+    esac
+    shift 2
+done
+if [ ! -f "$image" ] || [ -z "$timeout_s" ]; then
+    echo "run.sh: say an IMAGE that is there, and --timeout SECONDS" >&2
+    exit 64
+fi
+if ! command -v qemu-system-aarch64 >/dev/null; then
+    echo "run.sh: qemu-system-aarch64 is missing; install the package qemu-system-arm" >&2
+    exit 69
+fi
+tree=$(sh "$(dirname "$0")/kernel.sh") || exit
+
+failed=0
+complain() {
+    echo "FAILED  vm $1"
+    failed=1
+}
+
+disk=$(mktemp)
+trap 'rm -f "$disk"' EXIT
+truncate -s 256M "$disk"
+timeout --foreground --kill-after=5 "$timeout_s" qemu-system-aarch64 -M virt -cpu cortex-a72 -accel tcg -m 512 \
+    -nodefaults -display none -nic none -no-reboot -serial stdio \
+    -kernel "$tree/vmlinuz" -initrd "$image" -append "console=ttyAMA0 loglevel=3 panic=-1 oops=panic" \
+    -drive "if=none,id=out,file=$disk,format=raw" -device virtio-blk-pci,drive=out \
+    </dev/null 2>&1 | tr -d '\r' >"$log"
+
+sed -n 's/^dicot-vm: ok \(.*\)/ok      vm \1/p' "$log"
+if grep -q '^dicot-vm: FAILED ' "$log"; then
+    sed -n 's/^dicot-vm: FAILED /FAILED  vm /p' "$log"
+    failed=1
+fi
+grep -q '^dicot-vm: done$' "$log" || complain "the machine did not come to its end within $timeout_s s"
+while read -r name; do
+    grep -q -e "^dicot-vm: ok $name\$" -e "^dicot-vm: FAILED $name:" "$log" || complain "$name: did not report"
+done <"$image.expect"
+if grep -aqE 'Oops|BUG:|WARNING: CPU|Unable to handle|Kernel panic|blocked for more than' "$log"; then
+    complain "the kernel complained"
+fi
+if [ -n "$out" ] && grep -q '^dicot-vm: done$' "$log"; then
+    mkdir -p "$out"
+    tar -x -f "$disk" -C "$out" || complain "what the machine handed out cannot be read"
+fi
+if [ $failed != 0 ]; then
+    echo "the log ends so ($log):"
+    tail -n 40 "$log" | sed 's/^/    /'
+fi
+exit $failed
