@@ -131,8 +131,8 @@ BoardSight search(ImageView<const std::uint8_t> grey, ImageView<const std::uint8
             for (Point2& corner : grid.corners)
                 corner = {scale * (corner.x + 0.5) - 0.5, scale * (corner.y + 0.5) - 0.5};
             const double sigma_px = kRefineSigma_px * std::sqrt(scale);
-            if (refine_grid(smooth(original, sigma_px), scale, grid) ||
-                (grey.data != original.data && refine_grid(smooth(grey, sigma_px), scale, grid)))
+            if (refine_grid(smooth(grey, sigma_px), scale, grid) ||
+                (grey.data != original.data && refine_grid(smooth(original, sigma_px), scale, grid)))
                 return as_sight(std::move(grid));
             blurred = true;
         }
