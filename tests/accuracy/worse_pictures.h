@@ -74,17 +74,21 @@ inline void blur(GreyPicture& picture, std::mt19937& /*random*/)
         std::fill_n(padded.begin(), kReach, row[0]);
         std::copy_n(row, width, padded.begin() + kReach);
         std::fill_n(padded.end() - kReach, kReach, row[width - 1]);
-        for (std::size_t k = 0; k < weights.size(); ++k)
+        float* const into = across.data() + y * width;
+        for (std::size_t k = 0; k < weights.size(); ++k) {
+            const float weight = weights[k] / all;
             for (std::size_t x = 0; x < width; ++x)
-                across[y * width + x] += weights[k] / all * padded[x + k];
+                into[x] += weight * padded[x + k];
+        }
     }
     std::vector<float> down(width);
     for (std::size_t y = 0; y < height; ++y) {
         std::ranges::fill(down, 0.0F);
         for (int k = -kReach; k <= kReach; ++k) {
             const auto from = static_cast<std::size_t>(std::clamp(static_cast<int>(y) + k, 0, picture.height - 1));
+            const float weight = weights[static_cast<std::size_t>(k + kReach)] / all;
             for (std::size_t x = 0; x < width; ++x)
-                down[x] += weights[static_cast<std::size_t>(k + kReach)] / all * across[from * width + x];
+                down[x] += weight * across[from * width + x];
         }
         std::ranges::transform(down, picture.view().row(static_cast<int>(y)),
                                [](float sum) { return grey_level(static_cast<double>(sum)); });

@@ -60,7 +60,11 @@ Outcome calibrated(const WorseSet& set, const std::vector<PicturePair>& pairs, c
         for (const auto& [side, sight] : {std::pair{"left", &left}, {"right", &right}})
             if (!sight->found)
                 std::printf("  %s, %s %02d: %s\n", change.name, side, pair.number, sight->reason.c_str());
-        if (left.found && right.found && calibration::agree_on_order(set.pairs.board, left, right).ok())
+        if (!left.found || !right.found)
+            continue;
+        const Status order = calibration::agree_on_order(set.pairs.board, left, right);
+        EXPECT_TRUE(order.ok()) << change.name << ", pair " << pair.number << ": " << order.message();
+        if (order.ok())
             task.views.push_back({0, left.corners, right.corners});
     }
     auto solved = solve_stereo(task);
