@@ -28,7 +28,7 @@ rm "$work/frames"/right/1280x720*
 
 # v4l2-ctl is not used; uvcvideo is there to be detached, and to come back.
 sh tests/vm/image.sh -o "$work/uvc.cpio" --module vhci-hcd --module uvcvideo \
-    --program .build/arm64/tests/vm/guest/usbip_camera/usbip_camera --program .build/arm64/tests/vm/guest/uvc_capture \
+    --program .build/arm64/tests/vm/guest/usbip_camera/usbip_camera --program .build/arm64/tests/vm/guest/drivers/uvc_capture \
     --file "$work/frames=/frames" --file tests/vm/guest/cameras.sh=/vm/cameras.sh tests/vm/guest/uvc.sh
 [ -d "$tree" ]
 exec sh tests/vm/run.sh "$work/uvc.cpio" --timeout 280 --out "$work/out"
