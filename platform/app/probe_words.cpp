@@ -45,10 +45,11 @@ const char* name_of(Together together)
     return "";
 }
 
-/// Frames a second, 0 of a mode without an interval.
+/// Frames a second to a tenth, 0 of a mode without an interval.
 double rate_hz(const CameraMode& mode)
 {
-    return mode.interval_100ns == 0 ? 0 : static_cast<double>(100'000'000U / mode.interval_100ns) / 10;
+    const std::uint64_t interval = mode.interval_100ns;
+    return interval == 0 ? 0 : static_cast<double>((100'000'000 + interval / 2) / interval) / 10;
 }
 
 bool has_ids(const CameraIdentity& identity)

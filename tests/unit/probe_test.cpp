@@ -98,9 +98,10 @@ TEST(Probe, ThePreferredModeDoesNotHangOnTheOrderOfTheDescriptors)
         camera.modes = {{PixelFormat::kMjpeg, 1280, 960, 333'333},
                         {PixelFormat::kMjpeg, 640, 480, 333'333},
                         {PixelFormat::kYuyv, 160, 120, 333'333},
-                        {PixelFormat::kYuyv, 640, 480, 666'666},
+                        {PixelFormat::kYuyv, 640, 480, 666'667},
                         {PixelFormat::kYuyv, 640, 480, 333'333}};
     EXPECT_THAT(choose_rig(cameras).why, HasSubstr("YUYV 640x480 at 30.0/s, both at once"));
+    EXPECT_THAT(probe_text(cameras, choose_rig(cameras)), HasSubstr("YUYV   640 x 480  at 15, 30 /s\n"));
 }
 
 TEST(Probe, ANodeOfTheKernelIsPreferredAndKeepsWhatTheDescriptorsSay)
