@@ -9,6 +9,7 @@ void add_bench(CLI::App& program, Command& chosen);
 void add_calibrate(CLI::App& program, Command& chosen);
 void add_evaluate(CLI::App& program, Command& chosen);
 void add_match(CLI::App& program, Command& chosen);
+void add_probe(CLI::App& program, Command& chosen);
 void add_process(CLI::App& program, Command& chosen);
 void add_rectify(CLI::App& program, Command& chosen);
 void add_rig(CLI::App& program, Command& chosen);

@@ -35,6 +35,7 @@ int main(int argc, char** argv)
     app::add_bench(program, chosen);
     app::add_calibrate(program, chosen);
     app::add_match(program, chosen);
+    app::add_probe(program, chosen);
     app::add_process(program, chosen);
     app::add_rectify(program, chosen);
     app::add_rig(program, chosen);

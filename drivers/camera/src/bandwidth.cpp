@@ -223,7 +223,8 @@ struct Words
 Words words_of(const CameraMode& mode) noexcept
 {
     Words words;
-    const std::uint64_t tenths = mode.interval_100ns == 0 ? 0 : 100'000'000U / mode.interval_100ns;
+    const std::uint64_t interval = mode.interval_100ns;
+    const std::uint64_t tenths = interval == 0 ? 0 : (100'000'000 + interval / 2) / interval; // 666,667 is 15.0
     std::snprintf(words.text, sizeof words.text, "%s %dx%d at %u.%u/s", name_of(mode.format), mode.width, mode.height,
                   static_cast<unsigned>(tenths / 10), static_cast<unsigned>(tenths % 10));
     return words;
