@@ -71,7 +71,7 @@ bool Settling::flat() noexcept
         products += (2 * k + 1 - n) * static_cast<std::int64_t>(luma_q8);
         sum_q8 += luma_q8;
     }
-    const std::int64_t squares = n * (n * n - 1) / 3;
+    const std::int64_t squares = std::max<std::int64_t>(n * (n * n - 1) / 3, 1); // 2 at least for two frames
     figures_.window_full = true;
     figures_.slope_q16 = static_cast<std::int32_t>(2 * 256 * products / squares);
     figures_.mean_luma_q8 = sum_q8 / static_cast<std::uint32_t>(n);
