@@ -16,7 +16,7 @@ namespace {
 
 /// Threads' stacks, what the C library keeps, and pages of code that the bare program has not touched yet: 0.9 MiB
 /// seen. The decoders have given their memory back before the matcher touches its own.
-constexpr std::size_t kWorkingBytes = std::size_t{1152} * 1024;
+constexpr std::size_t kWorkingBytes = std::size_t{1088} * 1024;
 
 struct Words
 {
