@@ -177,13 +177,15 @@ TEST(KernelMutants, ReadingOneByteBeforeARowIsFoundOut)
     EXPECT_NE(std::string(verdict.fault).find("outside"), std::string::npos) << verdict.fault;
 }
 
-/// The law of remap_row with positions moved by `shift` before they are rounded.
+/// The law of remap_row with positions moved by `shift` before they are rounded, within the contract's domain.
 void remap_moved(std::uint8_t* rgb, int n, const RemapSpan* spans, int cell_log2, const RemapSource& source, int shift)
 {
     for (int i = 0; i < n; ++i) {
         const RemapSpan& span = spans[i >> cell_log2];
         const int u = i & ((1 << cell_log2) - 1);
-        const RemapSpan moved{span.x + u * span.dx + shift, span.y + u * span.dy, 0, 0};
+        constexpr std::int64_t kMost = (std::int64_t{1} << 31) - 1 - (1 << 8);
+        const std::int64_t x = std::int64_t{span.x} + u * span.dx + shift;
+        const RemapSpan moved{static_cast<std::int32_t>(std::clamp(x, -kMost, kMost)), span.y + u * span.dy, 0, 0};
         kScalarKernels.remap_row(rgb + 3 * i, 1, &moved, cell_log2, source);
     }
 }
