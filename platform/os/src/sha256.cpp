@@ -13,7 +13,7 @@ static_assert(std::is_trivially_copyable_v<SHA2_CTX> && alignof(SHA2_CTX) <= 8);
 
 SHA2_CTX* context_in(std::byte* state) noexcept
 {
-    return std::launder(reinterpret_cast<SHA2_CTX*>(state));
+    return std::launder(static_cast<SHA2_CTX*>(static_cast<void*>(state)));
 }
 
 } // namespace
