@@ -1,7 +1,7 @@
 #!/bin/sh
 # Every test of dicot, from a bare Debian 12 on: installs what is missing, builds in each way that matters, runs, counts.
 #
-#   sh toolchain/test.sh             everything: half an hour on two processors
+#   sh toolchain/test.sh             everything: three quarters of an hour on two processors
 #   sh toolchain/test.sh --quick     the release build's tests and the rules of the house
 #   sh toolchain/test.sh STAGE ...   some of: release house accuracy lint clang asan tsan fuzz cross vm
 #
