@@ -55,6 +55,8 @@ void Camera::power_off()
     stream_.drop_all();
     status_reads_.clear();
     mute_.clear();
+    early_.clear();
+    last_submitted_ = 0;
 }
 
 void Camera::stop_streaming()
@@ -70,6 +72,8 @@ void Camera::take(Request request, Microseconds now)
         unlink(request);
         return;
     }
+    if (was_unlinked(request))
+        return;
     if (request.endpoint == kVideoEndpoint && request.in) {
         stream_.submit(std::move(request));
         return;
@@ -95,10 +99,28 @@ void Camera::take(Request request, Microseconds now)
 
 void Camera::unlink(const Request& request)
 {
+    // The kernel may send this before the transfer itself. If it heard now that there is none, it would give the
+    // transfer back, and take its answer later for an error that unplugs the camera.
+    if (request.victim > last_submitted_) {
+        around_.log("an unlink is ahead of its transfer");
+        early_.push_back(request);
+        return;
+    }
     const auto is_victim = [&](const Request& waiting) { return waiting.sequence == request.victim; };
     const bool found = stream_.unlink(request.victim) || std::erase_if(status_reads_, is_victim) > 0 ||
                        std::erase_if(mute_, is_victim) > 0;
     around_.answer(write_unlinked(request, found ? -ECONNRESET : 0));
+}
+
+bool Camera::was_unlinked(const Request& request)
+{
+    last_submitted_ = request.sequence;
+    const auto early = std::ranges::find(early_, request.sequence, &Request::victim);
+    if (early == early_.end())
+        return false;
+    around_.answer(write_unlinked(*early, -ECONNRESET));
+    early_.erase(early);
+    return true;
 }
 
 Reply Camera::control(const std::array<std::uint8_t, 8>& bytes, std::span<const std::uint8_t> out, Microseconds now)

@@ -50,6 +50,7 @@ public:
 private:
     struct Setup;
     void unlink(const Request& request);
+    bool was_unlinked(const Request& request);
     Reply standard(const Setup& setup, Microseconds now);
     Reply descriptor(const Setup& setup);
     Reply class_request(const Setup& setup, std::span<const std::uint8_t> out, Microseconds now);
@@ -65,6 +66,8 @@ private:
     VideoStream stream_;
     std::vector<Request> status_reads_; ///< on the status endpoint, which never has anything to say
     std::vector<Request> mute_;         ///< control requests that are left without an answer
+    std::vector<Request> early_;        ///< unlinks whose transfers have not come yet
+    std::uint32_t last_submitted_ = 0;  ///< transfers come in the order of their sequence numbers
     int configuration_ = 0;
     int alternate_ = 0;
 };
