@@ -387,6 +387,21 @@ TEST(VirtualCamera, waits_for_the_transfer_when_its_unlink_is_ahead_of_it)
     EXPECT_FALSE(host.camera_->serve(kStart + VideoStream::kIdle).has_value());
     for (const Bytes& answer : host.answers_)
         EXPECT_NE(number_at(answer, 4), 2u);
+
+    // What was submitted before the camera was plugged in anew does not come again.
+    host.camera_->power_on();
+    host.answers_.clear();
+    host.camera_->take(unlink, kStart);
+    ASSERT_EQ(host.answers_.size(), 1u);
+    EXPECT_EQ(number_at(host.answers_[0], 20), 0u);
+    host.answers_.clear();
+    unlink.victim = 3;
+    host.camera_->take(unlink, kStart);
+    EXPECT_TRUE(host.answers_.empty());
+    ASSERT_TRUE(host.camera_->deadline().has_value());
+    EXPECT_FALSE(host.camera_->serve(*host.camera_->deadline()).has_value());
+    ASSERT_EQ(host.answers_.size(), 1u);
+    EXPECT_EQ(number_at(host.answers_[0], 20), 0u);
 }
 
 TEST(FaultPlan, reads_every_place)
