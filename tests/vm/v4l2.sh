@@ -8,5 +8,5 @@ name=v4l2
 
 build_all v4l2_capture dicot
 make_frames
-run_machine 300 --module vivid --program "$tree/usr/bin/v4l2-ctl" --program "$built/drivers/v4l2_capture" \
+run_machine 480 --module vivid --program "$tree/usr/bin/v4l2-ctl" --program "$built/drivers/v4l2_capture" \
     --program .build/arm64/platform/app/dicot
