@@ -21,6 +21,7 @@ build_all() { # targets of the preset arm64
     quietly cmake --preset arm64
     quietly cmake --build --preset arm64 --target usbip_camera "$@"
     tree=$(sh tests/vm/kernel.sh)
+    export tree
     exec 9>&-
 }
 
