@@ -1,0 +1,28 @@
+// What most of the sights agree on.
+#pragma once
+
+#include "follow.h"
+
+#include <span>
+
+namespace dicot::aiming {
+
+/// How the right picture lies beside the left one: rise = rise_px + slope x + stretch y.
+struct Geometry
+{
+    double rise_px = 0;
+    double slope = 0;
+    double stretch = 0;
+
+    double rise_at(const Sight& sight) const { return rise_px + slope * sight.x + stretch * sight.y; }
+};
+
+/// Fits the geometry and brings the sights that agree with it to the front. Returns how many they are; fewer than `fewest` are
+/// no agreement, and the geometry is then that of nothing.
+std::size_t agree(std::span<Sight> sights, double width_px, std::size_t fewest, Geometry& geometry);
+
+/// The value below which `percent` of the sights' shifts lie, once the roll between the pictures is taken out.
+/// Reorders the sights; there is at least one.
+double shift_below(std::span<Sight> sights, const Geometry& geometry, int percent);
+
+} // namespace dicot::aiming
