@@ -69,11 +69,10 @@ std::size_t agree(std::span<Sight> sights, double width_px, std::size_t fewest, 
     }
 }
 
-double shift_below(std::span<Sight> sights, const Geometry& geometry, int percent)
+double ranked_shift(std::span<Sight> sights, const Geometry& geometry, std::size_t rank)
 {
     const auto shift = [&](const Sight& sight) { return sight.shift_px - geometry.slope * sight.y; };
-    const std::size_t index = (sights.size() - 1) * static_cast<std::size_t>(percent) / 100;
-    const auto there = sights.begin() + static_cast<std::ptrdiff_t>(index);
+    const auto there = sights.begin() + static_cast<std::ptrdiff_t>(rank);
     std::nth_element(sights.begin(), there, sights.end(),
                      [&](const Sight& a, const Sight& b) { return shift(a) < shift(b); });
     return shift(*there);

@@ -17,12 +17,11 @@ struct Geometry
     double rise_at(const Sight& sight) const { return rise_px + slope * sight.x + stretch * sight.y; }
 };
 
-/// Fits the geometry and brings the sights that agree with it to the front. Returns how many they are; fewer than `fewest` are
-/// no agreement, and the geometry is then that of nothing.
+/// Fits the geometry and brings the sights that agree with it to the front. Returns how many they are; fewer than
+/// `fewest` are no agreement, and the geometry is then that of nothing.
 std::size_t agree(std::span<Sight> sights, double width_px, std::size_t fewest, Geometry& geometry);
 
-/// The value below which `percent` of the sights' shifts lie, once the roll between the pictures is taken out.
-/// Reorders the sights; there is at least one.
-double shift_below(std::span<Sight> sights, const Geometry& geometry, int percent);
+/// The shift that `rank` sights shift less than, once the roll between the pictures is taken out. Reorders the sights.
+double ranked_shift(std::span<Sight> sights, const Geometry& geometry, std::size_t rank);
 
 } // namespace dicot::aiming

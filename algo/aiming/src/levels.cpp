@@ -10,8 +10,8 @@ void halve(Grey from, ImageView<std::uint8_t> to)
         const std::uint8_t* const lower = from.row(2 * y + 1);
         std::uint8_t* const out = to.row(y);
         for (int x = 0; x < to.width; ++x)
-            out[x] = static_cast<std::uint8_t>(
-                (upper[2 * x] + upper[2 * x + 1] + lower[2 * x] + lower[2 * x + 1] + 2) / 4);
+            out[x] =
+                static_cast<std::uint8_t>((upper[2 * x] + upper[2 * x + 1] + lower[2 * x] + lower[2 * x + 1] + 2) / 4);
     }
 }
 

@@ -7,8 +7,8 @@ namespace dicot::aiming {
 namespace {
 
 /// One patch is chosen of each cell of so many pixels a side.
-constexpr int kCell = 6;
-constexpr int kCellOfSmallest = 4;
+constexpr int kCell = 5;
+constexpr int kCellOfSmallest = 3;
 /// A patch reaches from -kHalf to kHalf - 1.
 constexpr int kHalf = 4;
 /// The least change of grey, squared, in the direction in which a patch changes least.
@@ -170,8 +170,8 @@ std::size_t find_in_level(Grey left, Grey right, int level, int cell, PatchTable
             if (here.x < 0)
                 continue;
             ++table.patches;
-            const Found there = search(inside, table.left_bits[inside.index(here.x, here.y)], table.right_bits, here,
-                                       table.distance);
+            const Found there =
+                search(inside, table.left_bits[inside.index(here.x, here.y)], table.right_bits, here, table.distance);
             if (!stands_out(there))
                 continue;
             const Found back = search(inside, table.right_bits[inside.index(there.x, there.y)], table.left_bits, there,

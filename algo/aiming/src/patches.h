@@ -19,8 +19,9 @@ struct Pair
 /// Working memory of find_pairs() for pictures of one size.
 struct PatchTable
 {
-    std::span<std::uint64_t> left_bits, right_bits; ///< one word a pixel: which of the 8 x 8 around it are above their mean
-    std::span<std::uint8_t> distance;               ///< of one patch to all places of its search window
+    std::span<std::uint64_t> left_bits,
+        right_bits;                   ///< one word a pixel: which of the 8 x 8 around it are above their mean
+    std::span<std::uint8_t> distance; ///< of one patch to all places of its search window
     std::span<Pair> pairs;
     int patches = 0; ///< looked for in the last search
 

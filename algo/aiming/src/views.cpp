@@ -6,8 +6,6 @@
 #include "patches.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <cmath>
 
 namespace dicot::aiming {
@@ -44,15 +42,30 @@ int overlap_percent(double shift_px, double rise_px, Grey picture)
     return static_cast<int>(100 * across * down + 0.5);
 }
 
-/// Shares of the width that a shift must exceed to count.
+/// Shares of the width: what is no shift yet, how far the cameras may be turned towards each other before one pair
+/// cannot tell any more, and a shift that only near things have.
 constexpr double kClearShift = 1.0 / 160;
+constexpr double kToeIn = 1.0 / 60;
+constexpr double kNearShift = 1.0 / 40;
+
+/// Whether shifts are above 0, given those of far and of near things: near things alone may decide if what is far
+/// shifts the other way by little.
+bool shifts_up(double far_px, double near_px, double width_px)
+{
+    if (far_px > kClearShift * width_px)
+        return true;
+    return near_px > kNearShift * width_px && far_px > -kToeIn * width_px && near_px > -2 * far_px;
+}
 
 Order order_of(std::span<Sight> sights, const Geometry& geometry, double width_px)
 {
-    const double clear = kClearShift * width_px;
-    if (shift_below(sights, geometry, 10) > clear)
+    // So many matches are not chance any more; what is near may be small in the picture.
+    const std::size_t near = std::max<std::size_t>(5, sights.size() / 40), far = std::max(near, sights.size() / 20);
+    const auto lowest = [&](std::size_t rank) { return ranked_shift(sights, geometry, rank); };
+    const auto highest = [&](std::size_t rank) { return ranked_shift(sights, geometry, sights.size() - 1 - rank); };
+    if (shifts_up(lowest(far), highest(near), width_px))
         return Order::kAsNamed;
-    if (shift_below(sights, geometry, 90) < -clear)
+    if (shifts_up(-highest(far), -lowest(near), width_px))
         return Order::kSwapped;
     return Order::kNotKnown;
 }
@@ -74,9 +87,8 @@ Result<Views> compare_views(Grey left, Grey right, Arena& scratch)
                        left.width, left.height, right.width, right.height);
     for (const int side : {left.width, left.height})
         if (side < kMinViewSide || side > kMaxViewSide)
-            return failure(Fault::kBadData,
-                           "pictures of %d x %d pixels cannot be compared: each side must be %d to %d", left.width,
-                           left.height, kMinViewSide, kMaxViewSide);
+            return failure(Fault::kBadData, "pictures of %d x %d pixels cannot be compared: each side must be %d to %d",
+                           left.width, left.height, kMinViewSide, kMaxViewSide);
     if (const std::size_t need = view_scratch_bytes(left.width, left.height); scratch.size() < scratch.used() + need)
         return failure(Fault::kConfig, "comparing two pictures of %d x %d pixels needs %zu bytes, and %zu are free",
                        left.width, left.height, need, scratch.size() - std::min(scratch.size(), scratch.used()));
@@ -89,16 +101,15 @@ Result<Views> compare_views(Grey left, Grey right, Arena& scratch)
         if (const std::optional<Sight> sight = follow(bench.left, bench.right, pair))
             bench.sights[seen++] = *sight;
     views.patches = bench.patches.patches;
-    if (getenv("DBG")) { fprintf(stderr,"patches %d seen %zu\n", views.patches, seen); if(atoi(getenv("DBG"))>1) for(size_t i=0;i<seen;++i) fprintf(stderr,"%6.1f %6.1f sh %6.1f rise %6.1f\n",bench.sights[i].x,bench.sights[i].y,bench.sights[i].shift_px,bench.sights[i].rise_px);}
 
     Geometry geometry;
     const std::size_t agreeing = agree(bench.sights.first(seen), left.width, Views::kFewestMatches, geometry);
     views.matches = static_cast<int>(agreeing);
     if (views.known()) {
         const std::span<Sight> sights = bench.sights.first(agreeing);
-        views.shift_px = shift_below(sights, geometry, 50);
-        views.shift_low_px = shift_below(sights, geometry, 10);
-        views.shift_high_px = shift_below(sights, geometry, 90);
+        views.shift_px = ranked_shift(sights, geometry, agreeing / 2);
+        views.shift_low_px = ranked_shift(sights, geometry, agreeing / 10);
+        views.shift_high_px = ranked_shift(sights, geometry, agreeing - 1 - agreeing / 10);
         views.vertical_px = geometry.rise_px;
         views.roll_deg = -degrees(geometry.slope);
         views.overlap_percent = overlap_percent(views.shift_px, views.vertical_px, left);
