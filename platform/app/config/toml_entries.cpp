@@ -39,10 +39,45 @@ int line_of(const toml::key& key)
     return static_cast<int>(key.source().begin.line);
 }
 
+/// Bytes of the UTF-8 sequence at the beginning of `text` (Unicode 15, table 3-7); 0 if there is none.
+std::size_t utf8_length(std::string_view text)
+{
+    const auto byte = [text](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+    const unsigned first = byte(0);
+    const std::size_t length = first < 0x80   ? 1
+                               : first < 0xc2 ? 0
+                               : first < 0xe0 ? 2
+                               : first < 0xf0 ? 3
+                               : first < 0xf5 ? 4
+                                              : 0;
+    const unsigned least = first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
+    const unsigned most = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
+    for (std::size_t i = 1; i < length; ++i)
+        if (byte(i) < (i == 1 ? least : 0x80) || byte(i) > (i == 1 ? most : 0xbf))
+            return 0;
+    return length;
+}
+
+/// toml++ knows no line for this.
+Status check_utf8(std::string_view text, const char* name)
+{
+    int line = 1;
+    while (!text.empty()) {
+        const std::size_t length = utf8_length(text);
+        if (length == 0)
+            return failure(Fault::kConfig, "%s:%d: this is not TOML: the line is not UTF-8; save the file as UTF-8",
+                           name, line);
+        line += text.front() == '\n' ? 1 : 0;
+        text.remove_prefix(length);
+    }
+    return {};
+}
+
 } // namespace
 
 Result<std::vector<TomlEntry>> toml_entries(std::string_view text, const char* name)
 {
+    TRY(check_utf8(text, name));
     const toml::parse_result parsed = toml::parse(text);
     if (!parsed) {
         DeviceText<150> why;
