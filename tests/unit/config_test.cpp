@@ -224,6 +224,16 @@ TEST(Config, WhatIsNotUtf8IsToldWithItsLine)
     }
 }
 
+TEST(Config, LettersOfOtherAlphabetsOutsideOfTextsAreNoToml)
+{
+    for (const char* letter : {"\xc2\xa1", "\xc3\x86", "\xd2\x99", "\xe2\x80\xb0", "\xef\xbb\xbe", "\xe4\xb8\x80"})
+        for (const std::string text : {"frames = 3", "frames = ", "frames"}) {
+            EXPECT_THAT(complaint("[burst]\n" + text + letter), StartsWith("t.toml:2: this is not TOML: ")) << letter;
+            EXPECT_THAT(complaint("[burst]\n" + text + " " + letter), StartsWith("t.toml:2: this is not TOML: "))
+                << letter;
+        }
+}
+
 TEST(Config, OneCameraCannotStandOnBothSides)
 {
     EXPECT_THAT(complaint("[cameras]\nright = '1-1'\nleft = 'port:1-1'\n"),
