@@ -150,6 +150,7 @@ TEST(Glance, SeesABoardThatIsTooSmallAtHalfTheSize)
     scene.width = 1280;
     scene.height = 960;
     scene.lens = {1100, 1100, 639.5, 479.5, {}};
+    scene.board = {20, 15, 30};
     scene.place = placed(10, 10, 0, 0, 2700); // squares of 12 px
     EXPECT_TRUE(calibration::glance(test::photograph(scene).view(), scene.board).found);
 }
