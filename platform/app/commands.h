@@ -7,6 +7,7 @@ namespace dicot::app {
 
 void add_bench(CLI::App& program, Command& chosen);
 void add_calibrate(CLI::App& program, Command& chosen);
+void add_config(CLI::App& program, Command& chosen);
 void add_evaluate(CLI::App& program, Command& chosen);
 void add_match(CLI::App& program, Command& chosen);
 void add_probe(CLI::App& program, Command& chosen);

@@ -34,6 +34,7 @@ int main(int argc, char** argv)
     app::Command chosen;
     app::add_bench(program, chosen);
     app::add_calibrate(program, chosen);
+    app::add_config(program, chosen);
     app::add_match(program, chosen);
     app::add_probe(program, chosen);
     app::add_process(program, chosen);

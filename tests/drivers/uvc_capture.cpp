@@ -10,9 +10,10 @@
 // A CAMERA is a USB port or a serial number; "1-1@2" streams it through alternate setting 2. Two cameras stream at
 // once. OUT_FOLDER/<camera>-<number>.<yuyv|mjpg|nv12|grey> holds the bytes; one line on standard output for each frame:
 // camera, number, verdict, bytes, sequence, lost, start, flaw. Exit code 0 when all frames came.
+#include "holdings.h"
+
 #include "dicot/os/clock.h"
 #include "dicot/os/heap_gate.h"
-#include "dicot/os/process_memory.h"
 #include "dicot/uvc/uvc_camera.h"
 #include "dicot/uvc/uvc_list.h"
 
@@ -24,8 +25,6 @@
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <dirent.h>
 
 namespace {
 
@@ -249,23 +248,6 @@ int ladder(const CameraMode& wanted, int fps, int frames, const std::string& nam
     return 0;
 }
 
-long long resident_kib()
-{
-    const Result<ProcessMemory> memory = process_memory();
-    return memory.ok() ? static_cast<long long>(memory.value().resident_bytes >> 10) : -1;
-}
-
-long open_files()
-{
-    long count = 0;
-    DIR* folder = ::opendir("/proc/self/fd");
-    while (folder != nullptr && ::readdir(folder) != nullptr) // NOLINT(concurrency-mt-unsafe)
-        ++count;
-    if (folder != nullptr)
-        ::closedir(folder);
-    return count;
-}
-
 /// Starts and stops, with one frame each; memory and files must stay as they are after the first round.
 int cycles(const CameraMode& wanted, int fps, int count, const std::string& name)
 {
@@ -285,14 +267,17 @@ int cycles(const CameraMode& wanted, int fps, int count, const std::string& name
             const Result<FrameLease> lease = camera.next(monotonic_us() + kFrameUs);
             if (!lease.ok())
                 return complain(lease.status());
-            std::printf("cycle %d: %s, resident %lld KiB, %ld files\n", i, name_of(lease.value()->verdict),
-                        resident_kib(), open_files());
+            const Holdings held = Holdings::now();
+            std::printf("cycle %d: %s, resident %ld KiB, %ld maps, %ld files\n", i, name_of(lease.value()->verdict),
+                        held.resident_kib, held.maps, held.descriptors);
         }
         const Status stopped = camera.stop();
         if (!stopped.ok())
             return complain(stopped);
     }
-    std::printf("after %d cycles: resident %lld KiB, %ld files\n", count, resident_kib(), open_files());
+    const Holdings held = Holdings::now();
+    std::printf("after %d cycles: resident %ld KiB, %ld maps, %ld files\n", count, held.resident_kib, held.maps,
+                held.descriptors);
     return 0;
 }
 

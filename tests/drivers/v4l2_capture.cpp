@@ -15,6 +15,8 @@
 //   wait MS                        time for a frame in "take" (default 3000)
 //
 // "failed ..." answers what did not work, with the fault's number, and the program goes on; exit 1 if there was one.
+#include "holdings.h"
+
 #include "dicot/os/clock.h"
 #include "dicot/os/heap_gate.h"
 #include "dicot/v4l2/v4l2_camera.h"
@@ -23,8 +25,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -76,27 +76,6 @@ int print_list()
     std::printf("cameras %d left_out %d denied %d\n", found.count, found.left_out, found.denied);
     return 0;
 }
-
-struct Holdings
-{
-    long descriptors = 0;
-    long maps = 0;
-    long resident_kib = 0;
-
-    static Holdings now()
-    {
-        Holdings held;
-        held.descriptors = std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {});
-        std::ifstream maps("/proc/self/maps");
-        for (std::string line; std::getline(maps, line);)
-            ++held.maps;
-        std::ifstream status("/proc/self/status");
-        for (std::string line; std::getline(status, line);)
-            if (line.starts_with("VmRSS:"))
-                held.resident_kib = std::strtol(line.c_str() + 6, nullptr, 10);
-        return held;
-    }
-};
 
 class Script
 {

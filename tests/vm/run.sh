@@ -4,8 +4,8 @@
 #   sh tests/vm/run.sh IMAGE --timeout SECONDS [--out FOLDER] [--log FILE]
 #
 # FOLDER gets what the script left in /out, FILE the serial console (by default IMAGE.log). Prints a line "ok" or "FAILED"
-# for each test. Exit code 1, with the end of the log, when the machine did not come to its end in time, a test failed, an
-# expected one did not report, or the kernel complained.
+# for each test, and behind a failed one what it said last. Exit code 1 when the machine did not come to its end in time
+# (the end of the console is then printed), a test failed, an expected one did not report, or the kernel complained.
 #
 # The machine is emulated, never virtualised: a /dev/kvm that opens is no sign that a kernel boots on it (under some
 # hypervisors it does not), and emulation is the same everywhere.
@@ -49,22 +49,25 @@ timeout --foreground --kill-after=5 "$timeout_s" qemu-system-aarch64 -M virt -cp
     </dev/null 2>&1 | tr -d '\r' >"$log"
 
 sed -n 's/^dicot-vm: ok \(.*\)/ok      vm \1/p' "$log"
-if grep -q '^dicot-vm: FAILED ' "$log"; then
-    sed -n 's/^dicot-vm: FAILED /FAILED  vm /p' "$log"
-    failed=1
-fi
+# Behind each failure what report.sh shows of it, four blanks in.
+awk '/^dicot-vm: FAILED / { sub(/^dicot-vm: FAILED/, "FAILED  vm"); print; shown = 1; next }
+    !/^    / { shown = 0 }
+    shown' "$log"
+! grep -q '^dicot-vm: FAILED ' "$log" || failed=1
 grep -q '^dicot-vm: done$' "$log" || complain "the machine did not come to its end within $timeout_s s"
 while read -r name; do
     grep -q -e "^dicot-vm: ok $name\$" -e "^dicot-vm: FAILED $name:" "$log" || complain "$name: did not report"
 done <"$image.expect"
-if grep -aqE 'Oops|BUG:|WARNING: CPU|Unable to handle|Kernel panic|blocked for more than' "$log"; then
+complaints=$(grep -aE 'Oops|BUG:|WARNING: CPU|Unable to handle|Kernel panic|blocked for more than' "$log" | head -n 20)
+if [ -n "$complaints" ]; then
     complain "the kernel complained"
+    echo "$complaints" | sed 's/^/    /'
 fi
 if [ -n "$out" ] && grep -q '^dicot-vm: done$' "$log"; then
     mkdir -p "$out"
     tar -x -f "$disk" -C "$out" || complain "what the machine handed out cannot be read"
 fi
-if [ $failed != 0 ]; then
+if ! grep -q '^dicot-vm: done$' "$log"; then
     echo "the log ends so ($log):"
     tail -n 40 "$log" | sed 's/^/    /'
 fi

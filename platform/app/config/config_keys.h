@@ -8,19 +8,26 @@
 
 namespace dicot::app {
 
-/// Lets a key reach its value. `Value` is the type of a member of a section of Config.
+/// The way from a configuration to one value in it.
 template <typename Value>
-using Reach = Value& (*)(Config&);
+struct Reach
+{
+    Value& (*changeable)(Config&);
+    const Value& (*fixed)(const Config&);
+
+    Value& operator()(Config& config) const { return changeable(config); }
+    const Value& operator()(const Config& config) const { return fixed(config); }
+};
 
 struct BindingKey
 {
     Reach<CameraBinding> reach;
 };
 
-struct TextKey
+struct ChoiceKey
 {
     Reach<std::string> reach;
-    std::span<const char* const> choices; ///< empty: any text
+    std::span<const char* const> choices;
 };
 
 /// A path; relative ones are relative to the file that has them.
@@ -73,16 +80,20 @@ struct ConfigKey
     const char* name;
     const char* unit; ///< empty: none
     const char* meaning;
-    std::variant<BindingKey, TextKey, PathKey, ScriptKey, FormatsKey, WholeKey, NumberKey, OpenNumberKey, FlagKey> kind;
+    std::variant<BindingKey, ChoiceKey, PathKey, ScriptKey, FormatsKey, WholeKey, NumberKey, OpenNumberKey, FlagKey>
+        kind;
 };
 
 /// All keys, section by section.
 std::span<const ConfigKey> config_keys();
 
-/// What may stand there, in words: "1 to 64", "\"auto\", \"v4l2\" or \"uvc\"".
+/// What may stand there, in words: "a whole number from 1 to 64", "\"auto\", \"v4l2\" or \"uvc\"".
 std::string allowed_of(const ConfigKey& key);
 
-/// The value as TOML has it; empty of an open number. Paths as they are.
+/// A binding as the file has it: "", "port:1-1.2", "serial:ABC", "replay:FOLDER".
+std::string text_of(const CameraBinding& binding);
+
+/// The value as TOML has it; empty of a number that is open.
 std::string toml_of(const ConfigKey& key, const Config& config);
 
 } // namespace dicot::app
