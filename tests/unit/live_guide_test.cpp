@@ -173,7 +173,8 @@ TEST(Stillness, IsHalfASecondOfThreePairsWithinHalfAPixel)
         {"the right one moves", {{0, 0, 0, false}, {300, 0, 0, false}, {600, 0, 0.6, false}, {900, 0, 0.6, false}}},
         {"a slow drift is no rest",
          {{0, 0, 0, false}, {300, 0.3, 0, false}, {600, 0.6, 0, false}, {900, 0.9, 0, false}, {1200, 1.2, 0, false}}},
-        {"a long gap", {{0, 0, 0, false}, {300, 0, 0, false}, {2400, 0, 0, false}, {2700, 0, 0, false}}},
+        {"a long gap", {{0, 0, 0, false}, {300, 0, 0, false}, {10400, 0, 0, false}, {10700, 0, 0, false}}},
+        {"cameras in turn", {{0, 0, 0, false}, {4000, 0, 0, false}, {8000, 0, 0, true}}},
         {"time that goes back", {{900, 0, 0, false}, {1200, 0, 0, false}, {300, 0, 0, false}, {700, 0, 0, false}}},
     };
     for (const auto& [what, pairs] : cases) {
@@ -219,7 +220,7 @@ TEST(LiveGuide, NeverTakesABoardInMotion)
     Stage stage(5);
     for (int k = 0; k < 60; ++k) {
         EXPECT_EQ(stage.show(placed(10, 0, -100 + 2.0 * k, 0, 600)), LiveSight::kMoving);
-        EXPECT_EQ(stage.guide.advice(), "hold still");
+        EXPECT_THAT(stage.guide.advice(), testing::StartsWith("hold still"));
     }
 }
 

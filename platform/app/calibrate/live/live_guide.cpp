@@ -96,7 +96,8 @@ LiveSight LiveGuide::judge(const BoardSight& left, BoardSight& right, std::int64
                   std::to_string(twin) + ")";
         return still ? LiveSight::kAlike : LiveSight::kMoving;
     }
-    advice_ = still ? "this pair is taken" : "hold still";
+    advice_ = still ? "this pair is taken"
+                    : "hold still for this pair, or hold the board " + next_place(coverage_, range_, now);
     return still ? LiveSight::kTake : LiveSight::kMoving;
 }
 

@@ -91,10 +91,13 @@ private:
         return {};
     }
 
-    Status at_the_end_of_time() const
+    Status at_the_end_of_time()
     {
-        if (guide_.kept() >= calibration::kMinPairs)
+        if (guide_.kept() >= calibration::kMinPairs) {
+            screen_.say("the time is over: " + std::to_string(guide_.kept()) + " of " +
+                        std::to_string(guide_.wanted()) + " pairs were taken");
             return {};
+        }
         return failure(Fault::kTryAgain, "%d pairs in %.0f s are too few: give more time with --seconds, and %s",
                        guide_.kept(), plan_.seconds, guide_.advice().c_str());
     }

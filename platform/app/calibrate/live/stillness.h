@@ -17,8 +17,9 @@ class Stillness
 public:
     static constexpr std::int64_t kStillUs = 500'000;
     static constexpr int kFewestPairs = 3;
-    /// After a gap this long nobody knows what the board did meanwhile.
-    static constexpr std::int64_t kLongestGapUs = 2'000'000;
+    /// After a longer gap nobody knows what the board did meanwhile. Cameras that stream one after the other, for want
+    /// of bandwidth, take seconds for a pair.
+    static constexpr std::int64_t kLongestGapUs = 10'000'000;
     /// Radius of the circle in a picture of 640 px or less; wider ones see the same movement in more pixels.
     static constexpr double kRadius_px = 0.5;
     static constexpr int kRadiusWidth_px = 640;
