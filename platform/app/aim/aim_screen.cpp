@@ -65,7 +65,9 @@ Status AimScreen::draw(const AimMoment& now)
 {
     const Size size = terminal_size();
     const std::string block = first_lines(aim_block(now, size.columns, colours_), std::max(size.rows - 1, 1));
-    std::string text = drawn_ > 0 ? text_of("\033[%dA", drawn_) : "";
+    std::string text = "\r"; // the terminal itself may have written ^C
+    if (drawn_ > 0)
+        text += text_of("\033[%dA", drawn_);
     for (const char letter : block) {
         if (letter == '\n')
             text += "\033[K"; // wipes what was longer before, without the flicker of an empty screen
@@ -84,7 +86,9 @@ Status AimScreen::show(const AimMoment& now)
 
 Status AimScreen::end(const AimMoment& last)
 {
-    return write_out(json_ ? aim_summary_json(last) + "\n" : aim_summary(last, !in_place_));
+    if (json_)
+        return write_out(aim_summary_json(last) + "\n");
+    return write_out((in_place_ ? "\r\033[J" : "") + aim_summary(last, !in_place_));
 }
 
 } // namespace dicot::app
