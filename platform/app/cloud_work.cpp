@@ -14,6 +14,11 @@
 #include <utility>
 
 namespace dicot::app {
+namespace {
+
+constexpr int kJpegQuality = 90;
+
+} // namespace
 
 CloudWork::CloudWork(const CloudPlan& plan, ProcessBench bench)
     : plan_(plan), bench_(std::move(bench)), crew_(plan.threads)
@@ -54,9 +59,7 @@ Status CloudWork::see(PairSource& source, const PictureNames& names, bool shows_
         times.read_s = watch.lap_s();
     }
     if (!names.left.empty())
-        TRY(write_png(names.left.c_str(), left));
-    if (!names.right.empty())
-        TRY(write_png(names.right.c_str(), right));
+        TRY(write_jpeg(names.left.c_str(), left, kJpegQuality));
     times.pictures_s = watch.lap_s();
 
     Matcher matcher = TRY(Matcher::make(width, height, plan_.match, *plan_.kernels, plan_.threads, stage));

@@ -52,9 +52,9 @@ private:
 /// What is written beside the cloud; empty names are left out.
 struct PictureNames
 {
-    std::string left, right; ///< as they were matched, .png
-    std::string disparity;   ///< in colour, .png
-    std::string preview;     ///< the cloud from two viewpoints, .png
+    std::string left;      ///< as it was matched, .jpg
+    std::string disparity; ///< in colour, .png
+    std::string preview;   ///< the cloud from two viewpoints, .png
 };
 
 /// One pair at a time; the results of a stage stay until the next pair.

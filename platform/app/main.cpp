@@ -36,6 +36,7 @@ int main(int argc, char** argv)
     app::add_bench(program, chosen);
     app::add_calibrate(program, chosen);
     app::add_config(program, chosen);
+    app::add_capture(program, chosen);
     app::add_match(program, chosen);
     app::add_probe(program, chosen);
     app::add_process(program, chosen);
@@ -46,6 +47,7 @@ int main(int argc, char** argv)
     app::add_evaluate(program, chosen);
     app::add_memory(program, chosen);
     app::add_selftest(program, chosen);
+    app::add_snap(program, chosen);
 
     try {
         program.parse(argc, argv);

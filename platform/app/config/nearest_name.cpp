@@ -6,25 +6,25 @@
 namespace dicot::app {
 namespace {
 
-/// Letters put in, left out or replaced (Levenshtein 1966). Of long texts the beginning counts.
-std::size_t letters_apart(std::string_view a, std::string_view b)
+/// Letters put in, left out or replaced, and neighbours exchanged (Damerau 1964; no letter is touched twice). Of long
+/// texts the beginning counts.
+int letters_apart(std::string_view a, std::string_view b)
 {
     constexpr std::size_t kMost = 40;
     a = a.substr(0, kMost);
     b = b.substr(0, kMost);
-    std::array<std::size_t, kMost + 1> row{};
-    for (std::size_t j = 0; j <= b.size(); ++j)
-        row[j] = j;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
+    std::array<std::array<int, kMost + 1>, kMost + 1> apart{}; // of the first i letters of a and the first j of b
+    for (std::size_t i = 0; i <= kMost; ++i)
+        apart[i][0] = apart[0][i] = static_cast<int>(i);
+    for (std::size_t i = 1; i <= a.size(); ++i)
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const int same = a[i - 1] == b[j - 1] ? 0 : 1;
+            int& here = apart[i][j];
+            here = std::min({apart[i - 1][j] + 1, apart[i][j - 1] + 1, apart[i - 1][j - 1] + same});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                here = std::min(here, apart[i - 2][j - 2] + 1);
         }
-    }
-    return row[b.size()];
+    return apart[a.size()][b.size()];
 }
 
 } // namespace
