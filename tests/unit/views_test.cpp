@@ -1,4 +1,6 @@
 // Two views of a drawn scene whose shift, offset and roll are known.
+#include "spotted_wall.h"
+
 #include "dicot/aiming/views.h"
 
 #include <gtest/gtest.h>
@@ -14,51 +16,6 @@ namespace dicot::aiming {
 namespace {
 
 constexpr int kWidth = 640, kHeight = 480;
-
-/// Spots of any size and brightness, as a function of real coordinates.
-class Wall
-{
-public:
-    explicit Wall(unsigned seed)
-    {
-        std::mt19937 random{seed};
-        const auto between = [&](double least, double most) {
-            return least + (most - least) * static_cast<double>(random()) / 4294967295.0;
-        };
-        for (int i = 0; i < 4000; ++i) {
-            const Spot spot{between(-kHalf, kHalf), between(-kHalf, kHalf), between(3, kLargest), between(-60, 60)};
-            for (int row = cell(spot.y - kLargest); row <= cell(spot.y + kLargest); ++row)
-                for (int column = cell(spot.x - kLargest); column <= cell(spot.x + kLargest); ++column)
-                    near_[index(column, row)].push_back(spot);
-        }
-    }
-    double at(double x, double y) const
-    {
-        double level = 128;
-        for (const Spot& spot : near_[index(cell(x), cell(y))]) {
-            const double dx = (x - spot.x) / spot.radius, dy = (y - spot.y) / spot.radius;
-            if (const double squared = dx * dx + dy * dy; squared < 1)
-                level += spot.height * (1 - squared);
-        }
-        return level;
-    }
-
-private:
-    struct Spot
-    {
-        double x, y, radius, height;
-    };
-    static constexpr double kHalf = 600, kLargest = 14;
-    static constexpr int kCells = 100;
-
-    static int cell(double position)
-    {
-        return std::clamp(static_cast<int>((position + kHalf) * kCells / (2 * kHalf)), 0, kCells - 1);
-    }
-    static std::size_t index(int column, int row) { return static_cast<std::size_t>(row * kCells + column); }
-
-    std::vector<std::vector<Spot>> near_{kCells * kCells};
-};
 
 struct Picture
 {
@@ -84,7 +41,8 @@ struct Pose
 };
 
 /// The drawn scene, wall and board moved by so many pixels to the left.
-double seen(const Wall& wall, const Wall& board, double x, double y, double far_px, double near_px)
+double seen(const test::SpottedWall& wall, const test::SpottedWall& board, double x, double y, double far_px,
+            double near_px)
 {
     const bool on_board = std::fabs(x + near_px) < 130 && std::fabs(y) < 100;
     return on_board ? board.at(x + near_px, y) : wall.at(x + far_px, y);
@@ -124,7 +82,7 @@ protected:
     Views views_of(const Pose& pose) const { return compare(left().view(), right(pose).view()).value(); }
 
 private:
-    Wall wall_{kSeed}, board_{kSeed + 1};
+    test::SpottedWall wall_{kSeed}, board_{kSeed + 1};
 };
 
 TEST_F(TwoViews, ParallelCamerasShiftByWhatIsNearAndFar)
@@ -180,7 +138,7 @@ TEST_F(TwoViews, OnePictureTwiceHasNoOrder)
 
 TEST_F(TwoViews, DifferentScenesAndEmptyOnesAreNotKnown)
 {
-    const Wall other(kSeed + 2);
+    const test::SpottedWall other(kSeed + 2);
     const Picture elsewhere([&](double x, double y) { return other.at(x, y); });
     const Picture grey([](double, double) { return 90.0; });
     std::mt19937 random{kSeed};

@@ -129,14 +129,15 @@ std::string bar(const AimSide& side)
     return "[" + bar + "]";
 }
 
-std::string frame_words(const AimSide& side)
+std::string rate_words(const AimSide& side)
 {
-    std::string words = side.frames_per_s > 0 ? text_of("%.1f /s", side.frames_per_s) : "-";
-    if (side.torn > 0)
-        words += text_of(", %llu torn", static_cast<unsigned long long>(side.torn));
-    if (side.lost > 0)
-        words += text_of(", %llu lost", static_cast<unsigned long long>(side.lost));
-    return words;
+    return side.frames_per_s > 0 ? text_of("%.1f /s", side.frames_per_s) : "-";
+}
+
+std::string flaw_words(const AimSide& side)
+{
+    return text_of("%llu torn, %llu lost", static_cast<unsigned long long>(side.torn),
+                   static_cast<unsigned long long>(side.lost));
 }
 
 template <typename Words, typename Toned>
@@ -202,8 +203,9 @@ std::string aim_block(const AimMoment& now, int columns, bool colours)
     put_sides(
         block, "saturated", now, [](const AimSide& side) { return text_of("%.1f %%", side.light.saturated_percent); },
         plain);
-    put_sides(block, "frames", now, frame_words,
-              [](const AimSide& side) { return side.torn > 0 ? Tone::kFair : Tone::kPlain; });
+    put_sides(block, "frames", now, rate_words, plain);
+    put_sides(block, "", now, flaw_words,
+              [](const AimSide& side) { return side.torn + side.lost > 0 ? Tone::kFair : Tone::kPlain; });
     put_views(block, now);
     if (now.one_at_a_time)
         block.put_line("skew", "one camera after the other", Tone::kFair);
