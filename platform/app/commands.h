@@ -5,6 +5,7 @@
 
 namespace dicot::app {
 
+void add_aim(CLI::App& program, Command& chosen);
 void add_bench(CLI::App& program, Command& chosen);
 void add_calibrate(CLI::App& program, Command& chosen);
 void add_capture(CLI::App& program, Command& chosen);

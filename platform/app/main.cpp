@@ -32,6 +32,7 @@ int main(int argc, char** argv)
     program.require_subcommand(1);
 
     app::Command chosen;
+    app::add_aim(program, chosen);
     app::add_bench(program, chosen);
     app::add_calibrate(program, chosen);
     app::add_config(program, chosen);

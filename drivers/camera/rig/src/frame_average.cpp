@@ -62,7 +62,7 @@ int FrameAverage::threshold() const noexcept
     int median = 0;
     while (median < 255 && (below += spreads[static_cast<std::size_t>(median)]) * 2 <= least_.size())
         ++median;
-    return kSpread * median + kFloor;
+    return kSpread * std::min(median, kMostNoise) + kFloor;
 }
 
 AverageFigures FrameAverage::finish(ImageView<Rgb8> picture) noexcept

@@ -166,8 +166,6 @@ Status StereoCamera::start(ModePlanner& planner)
         if (less && refused < kMostRefusals && planner.plan(refused + 1).together != Together::kNotAtAll) {
             ++refused;
             full += bus_full ? 1 : 0;
-        } else if (bus_full) {
-            return failure(Fault::kUnavailable, "%s; no plan is left that asks for less", attempt.status.message());
         } else if (!silent || silences > 1) {
             figures_.plan = planner.plan(refused = full);
             TRY(recover(*attempt.side, attempt.status));

@@ -22,7 +22,7 @@ Result<StereoFrames> StereoCamera::next()
 /// Walks along both streams, always on at the older frame, as long as its successor is nearer to the other one.
 Result<StereoFrames> StereoCamera::next_at_once()
 {
-    constexpr int kMostSteps = 64; // clocks that run apart
+    constexpr int kMostSteps = 1024; // a camera that was shaken may be half a minute behind; clocks that run apart end
     FrameLease left = TRY(whole_frame(left_));
     FrameLease right = TRY(whole_frame(right_));
     for (int step = 0; step < kMostSteps; ++step) {
