@@ -54,6 +54,15 @@ gamma_color = 0.5
     }
 }
 
+TEST(ConfigText, PathsArePrintedFromTheRoot)
+{
+    const std::string text = "[cameras]\nleft = 'replay:a'\nright = 'replay:/b'\n[output]\nfolder = '.'\n";
+    const std::string printed = config_toml(parse_config(text, "conf/a.toml", "conf").value(), "/here");
+    EXPECT_NE(printed.find("\nleft = \"replay:/here/conf/a\"\n"), std::string::npos) << printed;
+    EXPECT_NE(printed.find("\nright = \"replay:/b\"\n"), std::string::npos) << printed;
+    EXPECT_NE(printed.find("\nfolder = \"/here/conf\"\n"), std::string::npos) << printed;
+}
+
 TEST(ConfigText, EachKeySaysWhereItsValueComesFrom)
 {
     const std::string printed = config_toml(parse_config("[burst]\n\nframes = 3\n", "a.toml", "").value(), "/here");
