@@ -3,6 +3,7 @@
 #include "calibrate/calibration_date.h"
 #include "calibrate/calibration_run.h"
 #include "calibrate/calibration_words.h"
+#include "calibrate/live/live_options.h"
 #include "calibrate/report.h"
 #include "commands.h"
 #include "distinct_files.h"
@@ -34,6 +35,7 @@ struct Words
     std::vector<BoardWord> boards; ///< filled from the options below, in their order
     std::vector<std::string> images, corners, squares, square_mm;
     CalibrationPlan plan;
+    LiveOptions live;
     std::string output, report;
     int threads = 0;
     bool force = false;
@@ -148,7 +150,8 @@ Status tell(const Words& words, const CalibrationRun& run, int threads, const Wr
         json["processor_s"] = static_cast<double>(process_cpu_us()) * 1e-6;
         json["peak_memory_bytes"] = memory.peak_bytes;
         // Names of files may be any bytes.
-        std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+        std::printf("%s\n",
+                    json.dump(words.live.on ? -1 : 2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     } else {
         print_run(run);
         std::printf("\nboards found in %.2f s, solved in %.2f s (%d thread%s), peak memory %.1f MiB\n", run.finding_s,
@@ -167,22 +170,39 @@ Status tell(const Words& words, const CalibrationRun& run, int threads, const Wr
     return {};
 }
 
+/// The outputs are looked at before somebody holds boards for nothing.
+Status take_pairs_first(const Words& words, const CalibrationPlan& plan, Crew& crew)
+{
+    TRY(check_distinct({plan.sets.front().folder}, {words.report}));
+    const bool makes_report = !words.report.empty() && !is_there(words.report);
+    Status outcome = check(words, {});
+    if (outcome.ok())
+        outcome = take_pairs(live_plan(words.live, plan, words.output, words.json), crew);
+    if (!outcome.ok() && makes_report)
+        (void)::rmdir(words.report.c_str());
+    return outcome;
+}
+
 Status run(const Words& words)
 {
     CalibrationPlan plan = words.plan;
-    plan.sets = TRY(read_board_words(words.boards));
+    if (!words.live.on)
+        TRY(words.live.refuse_without_live());
+    plan.sets = TRY(words.live.on ? read_live_words(words.boards, words.output) : read_board_words(words.boards));
     if (!(plan.range.near_mm > 0 && plan.range.near_mm < plan.range.far_mm && plan.range.far_mm <= 1e6))
         return failure(Fault::kUsage, "--near-mm must be above 0 and below --far-mm, which is 1000000 at most");
     if (plan.fit_warp && several_boards(plan))
         return failure(Fault::kUsage, "--fit-warp finds the bow of one board: calibrate with one board alone");
     CalibrationRun run;
+    const int threads = words.threads > 0 ? words.threads : std::min(ThreadCrew::processors(), ThreadCrew::kMaxThreads);
+    ThreadCrew crew(threads);
+    TRY(crew.started());
+    if (words.live.on)
+        TRY(take_pairs_first(words, plan, crew));
     TRY(date_rig(run.rig));
     TRY(list_pairs(plan, run));
     TRY(check(words, run));
 
-    const int threads = words.threads > 0 ? words.threads : std::min(ThreadCrew::processors(), ThreadCrew::kMaxThreads);
-    ThreadCrew crew(threads);
-    TRY(crew.started());
     const Status calibrated = calibrate(plan, run, crew);
     const Written written = write_outputs(words, run, calibrated);
     TRY(tell(words, run, threads, written));
@@ -206,6 +226,7 @@ void add_calibrate(CLI::App& program, Command& chosen)
     add("--corners", BoardWord::kCorners, words->corners, "inner corners of the board, columns x rows, like 9x6");
     add("--squares", BoardWord::kSquares, words->squares, "the same counted in squares: 10x7 has 9x6 corners");
     add("--square-mm", BoardWord::kSquareMm, words->square_mm, "side of one square, mm");
+    add_live_options(*command, words->live);
     command->add_option("-o,--output", words->output, "rig file (YAML)")->required();
     command->add_option("--report", words->report, "folder for a page about it: index.html and its pictures");
     command->add_option("--near-mm", words->plan.range.near_mm, "where the plants begin")->capture_default_str();
@@ -224,7 +245,8 @@ void add_calibrate(CLI::App& program, Command& chosen)
         "  --images A --corners 9x9 --square-mm 41 --images B --corners 7x7 --square-mm 46\n"
         "Folders that stand together share the boards behind them; boards before all folders belong to every folder. "
         "A\n"
-        "folder with several boards is searched for each. Exit code 65, and no rig file, when the verdict is redo.");
+        "folder with several boards is searched for each. Exit code 65, and no rig file, when the verdict is redo.\n"
+        "With --live the pairs come from the cameras: one folder at most, new or empty, one board.");
     command->callback([words, command, ordered, &chosen] {
         std::map<const CLI::Option*, std::size_t> taken;
         for (const CLI::Option* option : command->parse_order())

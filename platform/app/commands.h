@@ -5,8 +5,11 @@
 
 namespace dicot::app {
 
+void add_aim(CLI::App& program, Command& chosen);
 void add_bench(CLI::App& program, Command& chosen);
 void add_calibrate(CLI::App& program, Command& chosen);
+void add_capture(CLI::App& program, Command& chosen);
+void add_config(CLI::App& program, Command& chosen);
 void add_evaluate(CLI::App& program, Command& chosen);
 void add_match(CLI::App& program, Command& chosen);
 void add_probe(CLI::App& program, Command& chosen);
@@ -17,5 +20,6 @@ void add_export(CLI::App& program, Command& chosen);
 void add_info(CLI::App& program, Command& chosen);
 void add_memory(CLI::App& program, Command& chosen);
 void add_selftest(CLI::App& program, Command& chosen);
+void add_snap(CLI::App& program, Command& chosen);
 
 } // namespace dicot::app

@@ -32,8 +32,11 @@ int main(int argc, char** argv)
     program.require_subcommand(1);
 
     app::Command chosen;
+    app::add_aim(program, chosen);
     app::add_bench(program, chosen);
     app::add_calibrate(program, chosen);
+    app::add_config(program, chosen);
+    app::add_capture(program, chosen);
     app::add_match(program, chosen);
     app::add_probe(program, chosen);
     app::add_process(program, chosen);
@@ -44,6 +47,7 @@ int main(int argc, char** argv)
     app::add_evaluate(program, chosen);
     app::add_memory(program, chosen);
     app::add_selftest(program, chosen);
+    app::add_snap(program, chosen);
 
     try {
         program.parse(argc, argv);

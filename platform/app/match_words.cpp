@@ -7,6 +7,14 @@
 
 namespace dicot::app {
 
+MatchWords::MatchWords(const MatchingConfig& config)
+    : method(config.method), cost(config.cost), cpu(config.cpu), threads(config.threads)
+{
+    options.window = config.window;
+    options.gamma_color = config.gamma_color;
+    options.gamma_space = config.gamma_space;
+}
+
 void MatchWords::add_to(CLI::App& command)
 {
     add_all_but_threads_to(command);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "command.h"
+#include "config/config.h"
 #include "dicot/kernels/kernels.h"
 #include "dicot/matching/matcher.h"
 
@@ -9,14 +10,17 @@
 
 namespace dicot::app {
 
-/// Method, cost, window, weights, threads and CPU level as given on the command line.
+/// Method, cost, window, weights, threads and CPU level as given on the command line or in the configuration.
 struct MatchWords
 {
     MatchOptions options;
-    std::string method = "standard";
-    std::string cost = "adcensus";
-    std::string cpu = "auto";
-    int threads = 0; ///< 0: one for each processor that this process may use
+    std::string method = MatchingConfig{}.method;
+    std::string cost = MatchingConfig{}.cost;
+    std::string cpu = MatchingConfig{}.cpu;
+    int threads = MatchingConfig{}.threads; ///< 0: one for each processor that this process may use
+
+    MatchWords() = default;
+    explicit MatchWords(const MatchingConfig& config);
 
     void add_to(CLI::App& command);
     /// For commands that choose the number of threads themselves.

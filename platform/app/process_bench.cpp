@@ -28,7 +28,8 @@ PreviewSize preview_size(int width, int height)
     return {2 * kViewWidth, std::clamp(kViewWidth * height / width, kLeastViewHeight, kMostViewHeight)};
 }
 
-Result<ProcessBudget> process_budget(int width, int height, Pictures pictures, const MatchOptions& options, int workers)
+Result<ProcessBudget> process_budget(int width, int height, Pictures pictures, const MatchOptions& options, int workers,
+                                     std::size_t scratch_bytes)
 {
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     if (pixels > kMaxCloudPoints)
@@ -45,8 +46,12 @@ Result<ProcessBudget> process_budget(int width, int height, Pictures pictures, c
     Arena match;
     for (int picture = 0; picture < 3; ++picture)
         (void)take_picture<Rgb8>(match, width, height);
+    Arena before_matching = match;
+    if (pictures == Pictures::kRaw)
+        (void)take_picture<Rgb8>(before_matching, width, height);
+    (void)before_matching.take<std::byte>(scratch_bytes);
     (void)TRY(Matcher::make(width, height, options, kScalarKernels, workers, match));
-    budget.match = match.peak();
+    budget.match = std::max(match.peak(), before_matching.peak());
 
     Arena encode;
     (void)encode.take<std::byte>(encode_heap_bytes(pixels));
@@ -67,9 +72,9 @@ ProcessBench::ProcessBench(MemoryBlock block, const ProcessBudget& budget)
 }
 
 Result<ProcessBench> ProcessBench::make(int width, int height, Pictures pictures, const MatchOptions& options,
-                                        int workers)
+                                        int workers, std::size_t scratch_bytes)
 {
-    const ProcessBudget budget = TRY(process_budget(width, height, pictures, options, workers));
+    const ProcessBudget budget = TRY(process_budget(width, height, pictures, options, workers, scratch_bytes));
     return ProcessBench{TRY(MemoryBlock::map(budget.kept + budget.stages())), budget};
 }
 

@@ -1,5 +1,5 @@
 // The program itself: folders of pictures in, a rig file or a refusal out.
-#include "rig_scene.h"
+#include "board_photos.h"
 #include "temp_folder.h"
 #include "tool.h"
 
@@ -21,8 +21,12 @@ using test::Placement;
 using test::TempFolder;
 using test::ToolRun;
 
-constexpr Board kBoard{7, 5, 30};
-const std::string kBoardWords = " --corners 7x5 --square-mm 30 ";
+using test::kBoard;
+using test::kBoardWords;
+using test::photograph_pairs;
+using test::photograph_to;
+using test::small_rig;
+using test::varied_places;
 
 ToolRun dicot(const std::string& words)
 {
@@ -32,62 +36,6 @@ ToolRun dicot(const std::string& words)
 bool contains(const std::string& text, const std::string& part)
 {
     return text.find(part) != std::string::npos;
-}
-
-/// Two small cameras, so that pictures of them are quickly made.
-StereoRig small_rig()
-{
-    StereoRig rig;
-    rig.width = 400;
-    rig.height = 300;
-    rig.left = {330, 331, 201, 148, {}};
-    rig.right = {332, 331, 197, 152, {}};
-    rig.turn = test::turn_about(-0.8, 0.5, -0.6);
-    rig.shift_mm = {-60, 0.7, 0.9};
-    return rig;
-}
-
-/// One camera's picture of a board.
-void photograph_to(const std::string& path, const StereoRig& rig, bool right, const Board& board,
-                   const Placement& place)
-{
-    test::Scene scene;
-    scene.board = board;
-    scene.place = right ? test::in_right(rig, place) : place;
-    scene.lens = right ? rig.right : rig.left;
-    scene.width = rig.width;
-    scene.height = rig.height;
-    const test::Photo photo = test::photograph(scene);
-    std::ofstream file(path, std::ios::binary);
-    file << "P5 " << photo.width << " " << photo.height << " 255\n";
-    for (const std::uint8_t pixel : photo.pixels)
-        file.put(static_cast<char>(pixel));
-}
-
-/// Distances at which the board fills a good part of the picture, tilted to all sides.
-std::vector<Placement> varied_places()
-{
-    std::vector<Placement> places;
-    for (const auto& [tilt_x, tilt_y, x, y, z] : std::vector<std::array<double, 5>>{{25, 0, -60, -40, 420},
-                                                                                    {-25, 5, 90, 40, 430},
-                                                                                    {0, 30, 60, -50, 460},
-                                                                                    {5, -30, -50, 60, 450},
-                                                                                    {20, 20, 130, 90, 640},
-                                                                                    {-20, 25, -100, -80, 600},
-                                                                                    {-25, -25, 20, 0, 500}})
-        places.push_back({test::turn_about(tilt_x, tilt_y, 0.2 * x), {x + 25, y, z}});
-    return places;
-}
-
-void photograph_pairs(const TempFolder& folder, const std::vector<Placement>& places, const char* left = "left",
-                      const char* right = "right")
-{
-    const StereoRig rig = small_rig();
-    for (std::size_t k = 0; k < places.size(); ++k) {
-        const std::string number = std::to_string(k + 1) + ".pgm";
-        photograph_to(folder.path(left + number), rig, false, kBoard, places[k]);
-        photograph_to(folder.path(right + number), rig, true, kBoard, places[k]);
-    }
 }
 
 /// A picture without a board: stripes that differ from row to row.

@@ -24,6 +24,7 @@ set(DICOT_DOOR_PkgConfig::libusb dicot_uvc)
 set(DICOT_DOOR_Eigen3::Eigen dicot_calibration)
 set(DICOT_DOOR_CLI11::CLI11 dicot_app)
 set(DICOT_DOOR_nlohmann_json::nlohmann_json dicot_app)
+set(DICOT_DOOR_dicot_toml dicot_config)
 set(DICOT_DOOR_Threads::Threads dicot_os)
 
 function(dicot_room target)

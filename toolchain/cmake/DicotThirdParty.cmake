@@ -17,6 +17,12 @@ add_library(dicot_draco INTERFACE)
 target_include_directories(dicot_draco SYSTEM INTERFACE "${DRACO_INCLUDE_DIR}")
 target_link_libraries(dicot_draco INTERFACE "${DRACO_LIBRARY}")
 
+# Headers alone, without exceptions: Debian's pkg-config file asks for the shared library, which has them.
+find_path(TOMLPLUSPLUS_INCLUDE_DIR toml++/toml.h REQUIRED)
+add_library(dicot_toml INTERFACE)
+target_include_directories(dicot_toml SYSTEM INTERFACE "${TOMLPLUSPLUS_INCLUDE_DIR}")
+target_compile_definitions(dicot_toml INTERFACE TOML_HEADER_ONLY=1 TOML_EXCEPTIONS=0)
+
 # OpenCV is a yardstick of tests, never a part of the program. Debian's CMake files for it come with all of OpenCV.
 if(DICOT_TESTS)
   find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)

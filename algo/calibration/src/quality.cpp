@@ -17,24 +17,11 @@ constexpr std::array<double, 3> kDistances_mm{500, 800, 1000};
 
 void count_coverage(const CalibrationTask& task, const StereoCalibration& calibration, Quality& quality)
 {
-    const auto count = [&](Coverage& coverage, const std::vector<Point2>& corners) {
-        for (const Point2& p : corners) {
-            const int col =
-                std::clamp(static_cast<int>((p.x + 0.5) * kCoverageCols / task.width), 0, kCoverageCols - 1);
-            const int row =
-                std::clamp(static_cast<int>((p.y + 0.5) * kCoverageRows / task.height), 0, kCoverageRows - 1);
-            ++coverage.corners[static_cast<std::size_t>(row * kCoverageCols + col)];
-        }
-    };
     for (std::size_t v = 0; v < task.views.size(); ++v)
         if (calibration.views[v].used) {
-            count(quality.left, task.views[v].left);
-            count(quality.right, task.views[v].right);
+            add_corners(quality.left, task.views[v].left, task.width, task.height);
+            add_corners(quality.right, task.views[v].right, task.width, task.height);
         }
-    for (Coverage* coverage : {&quality.left, &quality.right})
-        coverage->share = static_cast<double>(std::count_if(coverage->corners.begin(), coverage->corners.end(),
-                                                            [](int corners) { return corners > 0; })) /
-                          (kCoverageCols * kCoverageRows);
 }
 
 void count_distances(const CalibrationTask& task, const StereoCalibration& calibration, const WorkingRange& range,
@@ -169,6 +156,18 @@ const char* name_of(Verdict verdict)
         return "redo";
     }
     return "";
+}
+
+void add_corners(Coverage& coverage, std::span<const Point2> corners, int width, int height)
+{
+    for (const Point2& p : corners) {
+        const int col = std::clamp(static_cast<int>((p.x + 0.5) * kCoverageCols / width), 0, kCoverageCols - 1);
+        const int row = std::clamp(static_cast<int>((p.y + 0.5) * kCoverageRows / height), 0, kCoverageRows - 1);
+        ++coverage.corners[static_cast<std::size_t>(row * kCoverageCols + col)];
+    }
+    coverage.share = static_cast<double>(std::count_if(coverage.corners.begin(), coverage.corners.end(),
+                                                       [](int count) { return count > 0; })) /
+                     (kCoverageCols * kCoverageRows);
 }
 
 Quality assess(const CalibrationTask& task, const StereoCalibration& calibration, const WorkingRange& range)

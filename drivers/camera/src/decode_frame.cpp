@@ -91,7 +91,7 @@ Status check_frame(const Frame& frame) noexcept
 {
     const CameraMode& mode = frame.mode;
     const char* format = name_of(mode.format);
-    if (frame.verdict != FrameVerdict::kWhole)
+    if (frame.verdict != FrameVerdict::kWhole && frame.verdict != FrameVerdict::kWarmingUp)
         return failure(Fault::kBadData, "the frame is %s (%s); take another one", name_of(frame.verdict), frame.flaw);
     if (mode.width < 1 || mode.height < 1 || mode.width > kMaxPictureSide || mode.height > kMaxPictureSide ||
         std::int64_t{mode.width} * mode.height > kMaxPicturePixels)

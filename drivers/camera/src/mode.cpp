@@ -29,6 +29,8 @@ const char* name_of(FrameVerdict verdict) noexcept
         return "torn";
     case FrameVerdict::kCancelled:
         return "cancelled";
+    case FrameVerdict::kWarmingUp:
+        return "warming up";
     }
     return "?";
 }

@@ -146,25 +146,26 @@ RowGaps row_gaps(const CalibrationRun& run, const Rectification& flat)
     return gaps;
 }
 
-std::vector<std::string> empty_parts(const calibration::Coverage& coverage)
+bool part_is_empty(const calibration::Coverage& coverage, std::size_t part)
 {
     constexpr std::array<int, 4> kCols{0, 3, 5, calibration::kCoverageCols};
     constexpr std::array<int, 4> kRows{0, 2, 4, calibration::kCoverageRows};
-    constexpr std::array<const char*, 9> kNames{"upper left",   "upper middle", "upper right",  "middle left", "middle",
-                                                "middle right", "lower left",   "lower middle", "lower right"};
+    int cells = 0;
+    int empty = 0;
+    for (int row = kRows[part / 3]; row < kRows[part / 3 + 1]; ++row)
+        for (int col = kCols[part % 3]; col < kCols[part % 3 + 1]; ++col) {
+            ++cells;
+            empty += coverage.corners[static_cast<std::size_t>(row * calibration::kCoverageCols + col)] == 0 ? 1 : 0;
+        }
+    return 2 * empty > cells;
+}
+
+std::vector<std::string> empty_parts(const calibration::Coverage& coverage)
+{
     std::vector<std::string> parts;
-    for (std::size_t part = 0; part < kNames.size(); ++part) {
-        int cells = 0;
-        int empty = 0;
-        for (int row = kRows[part / 3]; row < kRows[part / 3 + 1]; ++row)
-            for (int col = kCols[part % 3]; col < kCols[part % 3 + 1]; ++col) {
-                ++cells;
-                empty +=
-                    coverage.corners[static_cast<std::size_t>(row * calibration::kCoverageCols + col)] == 0 ? 1 : 0;
-            }
-        if (2 * empty > cells)
-            parts.emplace_back(kNames[part]);
-    }
+    for (std::size_t part = 0; part < kPartNames.size(); ++part)
+        if (part_is_empty(coverage, part))
+            parts.emplace_back(kPartNames[part]);
     return parts;
 }
 

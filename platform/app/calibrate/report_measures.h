@@ -5,6 +5,7 @@
 
 #include "dicot/rectification/rectify.h"
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -62,6 +63,12 @@ struct RowGaps
 
 /// Of all used pairs.
 RowGaps row_gaps(const CalibrationRun& run, const Rectification& flat);
+
+/// The thirds of a picture's sides make nine parts, in reading order.
+constexpr std::array<const char*, 9> kPartNames{"upper left",   "upper middle", "upper right",  "middle left", "middle",
+                                                "middle right", "lower left",   "lower middle", "lower right"};
+/// Whether more than half of a part's cells are without corners.
+bool part_is_empty(const calibration::Coverage& coverage, std::size_t part);
 
 /// Thirds of the picture without corners in more than half of their cells ("upper left", "middle"), in reading order.
 std::vector<std::string> empty_parts(const calibration::Coverage& coverage);

@@ -155,4 +155,15 @@ Result<ExposureLock> lock_exposure(Camera& lead, Camera& other, PowerLine power_
     return lock;
 }
 
+Status lock_again(Camera& camera, const ExposureLock& lock, bool is_lead)
+{
+    Setter setter(camera);
+    for (const LockedControl& one : lock.all()) {
+        const ControlSide& side = is_lead ? one.lead : one.other;
+        if (side.outcome == ControlOutcome::kSet || side.outcome == ControlOutcome::kOther)
+            setter.set(one.id, side.value);
+    }
+    return setter.verdict();
+}
+
 } // namespace dicot

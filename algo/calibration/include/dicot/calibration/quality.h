@@ -34,6 +34,9 @@ struct Coverage
     double share = 0; ///< of the cells, those with at least one corner
 };
 
+/// Counts corners of a picture of `width` x `height` px; those outside count for the nearest cell.
+void add_corners(Coverage& coverage, std::span<const Point2> corners, int width, int height);
+
 enum class Verdict
 {
     kGood,

@@ -14,6 +14,7 @@ enum class FrameVerdict : std::uint8_t
     kWhole,     ///< every byte as the camera sent it
     kTorn,      ///< bytes are missing or the transport reported an error
     kCancelled, ///< the stream was stopped, or the camera went away, before it was complete
+    kWarmingUp, ///< every byte is there, but the picture is not yet as it will stay
 };
 const char* name_of(FrameVerdict verdict) noexcept;
 
@@ -63,11 +64,14 @@ public:
 
     const Frame& operator*() const noexcept { return frame_; }
     const Frame* operator->() const noexcept { return &frame_; }
+    /// Who holds a frame may know better than the driver what it is worth.
+    void judge(FrameVerdict verdict) noexcept { frame_.verdict = verdict; }
 
 private:
     void let_go() noexcept
     {
-        if (owner_ != nullptr)
+        // The analyzer takes a lease that TRY() left unmade for one that has to be destroyed.
+        if (owner_ != nullptr) // NOLINT(clang-analyzer-core.UndefinedBinaryOperatorResult)
             std::exchange(owner_, nullptr)->give_back(slot_);
     }
 

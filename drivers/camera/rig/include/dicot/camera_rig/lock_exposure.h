@@ -76,4 +76,8 @@ Status let_converge(Camera& camera, PowerLine power_line);
 /// calls of one camera failed.
 Result<ExposureLock> lock_exposure(Camera& lead, Camera& other, PowerLine power_line);
 
+/// Sets once more what lock_exposure() left on one of the cameras, which may have lost it since: a device that was
+/// plugged in again begins with its own values. Fault::kUnavailable: kMostRefusedControls calls failed.
+Status lock_again(Camera& camera, const ExposureLock& lock, bool is_lead);
+
 } // namespace dicot

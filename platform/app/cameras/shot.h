@@ -1,0 +1,59 @@
+// A trustworthy pair from the cameras, and everything about it that is worth keeping.
+#pragma once
+
+#include "rig_stream.h"
+
+#include "../cloud_work.h"
+
+#include "dicot/aiming/views.h"
+#include "dicot/camera/luma.h"
+#include "dicot/camera_rig/burst.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace dicot::app {
+
+struct ShotFigures
+{
+    BurstFigures burst;
+    LumaFigures left, right;            ///< of the pictures that were kept
+    std::optional<aiming::Views> views; ///< none: pictures of a size that is not compared
+    std::int64_t taken_us = 0;          ///< since 1970, UTC, when the pair was there; the system's clock
+    double wait_s = 0;                  ///< from asking to having it
+    double cpu_s = 0;                   ///< processor time of that, all threads
+};
+
+/// Switches cameras on and takes pairs. Nothing is allocated outside the arenas after open().
+class Shot final : public PairSource
+{
+public:
+    /// `raw_folder`: where fill() writes left.png and right.png as the cameras saw them; empty: nowhere.
+    Shot(RigStream& rig, const Config& config, const std::string& raw_folder);
+
+    /// What take() and fill() need for pictures of this size.
+    static std::size_t scratch_bytes(int width, int height);
+
+    /// Streams, warmed up. Errors: those of StereoCamera::start() and warm_up().
+    Status begin();
+    /// One burst. Errors: those of Burst::take().
+    Status take(ImageView<Rgb8> left, ImageView<Rgb8> right, Arena scratch);
+    Status end() { return rig_.stop(); }
+    /// One pair from beginning to end.
+    Status fill(ImageView<Rgb8> left, ImageView<Rgb8> right, Arena scratch) override;
+
+    const ShotFigures& figures() const noexcept { return figures_; }
+    RigStream& rig() noexcept { return rig_; }
+
+private:
+    void look_at(ImageView<const Rgb8> left, ImageView<const Rgb8> right, Arena scratch);
+
+    RigStream& rig_;
+    BurstRules rules_;
+    std::string raw_left_, raw_right_;
+    ShotFigures figures_;
+};
+
+} // namespace dicot::app

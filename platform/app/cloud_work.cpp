@@ -1,0 +1,129 @@
+#include "cloud_work.h"
+
+#include "progress.h"
+#include "take_picture.h"
+
+#include "dicot/cloud/disparity_picture.h"
+#include "dicot/cloud/render.h"
+#include "dicot/export/export_cloud.h"
+#include "dicot/matching/matcher.h"
+#include "dicot/os/output_file.h"
+#include "dicot/picture/write_picture.h"
+
+#include <optional>
+#include <utility>
+
+namespace dicot::app {
+namespace {
+
+constexpr int kJpegQuality = 90;
+
+} // namespace
+
+CloudWork::CloudWork(const CloudPlan& plan, ProcessBench bench)
+    : plan_(plan), bench_(std::move(bench)), crew_(plan.threads)
+{
+}
+
+Result<std::unique_ptr<CloudWork>> CloudWork::make(const CloudPlan& plan, std::size_t scratch_bytes)
+{
+    const Pictures pictures = plan.tables ? Pictures::kRaw : Pictures::kRectified;
+    ProcessBench bench =
+        TRY(ProcessBench::make(plan.rig.width, plan.rig.height, pictures, plan.match, plan.threads, scratch_bytes));
+    std::unique_ptr<CloudWork> work(new CloudWork(plan, std::move(bench)));
+    TRY(work->crew_.started());
+    return work;
+}
+
+Status CloudWork::see(PairSource& source, const PictureNames& names, bool shows_progress)
+{
+    StopWatch watch;
+    times = {};
+    const int width = plan_.rig.width;
+    const int height = plan_.rig.height;
+    Arena stage = bench_.next_stage();
+    const auto left = take_picture<Rgb8>(stage, width, height);
+    const auto right = take_picture<Rgb8>(stage, width, height);
+    const auto painted = take_picture<Rgb8>(stage, width, height);
+    if (plan_.tables) {
+        // What the cameras saw lies where the disparities are painted later, and where the matcher works.
+        Arena before_matching = stage;
+        const auto raw_right = take_picture<Rgb8>(before_matching, width, height);
+        TRY(source.fill(painted, raw_right, before_matching));
+        times.read_s = watch.lap_s();
+        remap(plan_.tables->left(), *plan_.kernels, painted, left, plan_.tables->spans());
+        remap(plan_.tables->right(), *plan_.kernels, raw_right, right, plan_.tables->spans());
+        times.rectify_s = watch.lap_s();
+    } else {
+        TRY(source.fill(left, right, stage));
+        times.read_s = watch.lap_s();
+    }
+    if (!names.left.empty())
+        TRY(write_jpeg(names.left.c_str(), left, kJpegQuality));
+    times.pictures_s = watch.lap_s();
+
+    Matcher matcher = TRY(Matcher::make(width, height, plan_.match, *plan_.kernels, plan_.threads, stage));
+    const DisparityMap map = [&] {
+        if (!shows_progress)
+            return matcher.match(left, right, crew_).map;
+        Progress progress("matching");
+        return matcher.match(left, right, crew_, {nullptr, Progress::rows_done, &progress}).map;
+    }();
+    times.match_s = watch.lap_s();
+
+    Arena kept = bench_.kept;
+    const Triangulated seen = triangulate(map, left, plan_.triangulation, kept);
+    cloud_ = seen.cloud;
+    pixels_ = seen.pixels;
+    times.triangulate_s = watch.lap_s();
+    if (!names.disparity.empty() && !cloud_.points.empty()) {
+        paint_disparities(map, painted);
+        TRY(write_png(names.disparity.c_str(), painted));
+    }
+    times.pictures_s += watch.lap_s();
+    return {};
+}
+
+Status CloudWork::encode()
+{
+    StopWatch watch;
+    Arena stage = bench_.next_stage();
+    encoded_ = TRY(encode_cloud(cloud_, plan_.meta, stage.take<std::byte>(encode_heap_bytes(cloud_.points.size()))));
+    times.encode_s = watch.lap_s();
+    return {};
+}
+
+Status CloudWork::write_cloud(const std::string& path)
+{
+    StopWatch watch;
+    OutputFile file;
+    TRY(file.open(path.c_str()));
+    TRY(file.write(encoded_.bytes));
+    TRY(file.commit());
+    times.write_s += watch.lap_s();
+    return {};
+}
+
+Status CloudWork::write_ply(const std::string& path)
+{
+    StopWatch watch;
+    TRY(dicot::write_ply(path.c_str(), cloud_, plan_.meta));
+    times.write_s += watch.lap_s();
+    return {};
+}
+
+Status CloudWork::write_preview(const PictureNames& names)
+{
+    if (names.preview.empty())
+        return {};
+    StopWatch watch;
+    Arena stage = bench_.next_stage();
+    const PreviewSize size = preview_size(plan_.rig.width, plan_.rig.height);
+    const auto picture = take_picture<Rgb8>(stage, size.width, size.height);
+    render_two_views(cloud_, plan_.rig.focal_px, picture, stage);
+    TRY(write_png(names.preview.c_str(), picture));
+    times.pictures_s += watch.lap_s();
+    return {};
+}
+
+} // namespace dicot::app

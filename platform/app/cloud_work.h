@@ -1,0 +1,94 @@
+// A pair's way to a compressed cloud, in memory that was measured and mapped before.
+#pragma once
+
+#include "cloud_plan.h"
+#include "process_bench.h"
+
+#include "dicot/base/image.h"
+#include "dicot/codec/encode_cloud.h"
+#include "dicot/os/clock.h"
+#include "dicot/os/thread_crew.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace dicot::app {
+
+/// Where a pair comes from.
+class PairSource
+{
+public:
+    /// Fills both pictures of the rig's size. `scratch` is what measure() asked for, and gone afterwards.
+    virtual Status fill(ImageView<Rgb8> left, ImageView<Rgb8> right, Arena scratch) = 0;
+
+protected:
+    ~PairSource() = default;
+};
+
+struct StageTimes
+{
+    double read_s = 0, rectify_s = 0, match_s = 0, triangulate_s = 0, encode_s = 0, write_s = 0, pictures_s = 0;
+};
+
+/// Seconds since it was asked last.
+class StopWatch
+{
+public:
+    double lap_s()
+    {
+        const std::int64_t now = monotonic_us();
+        const double lap = static_cast<double>(now - last_us_) * 1e-6;
+        last_us_ = now;
+        return lap;
+    }
+
+private:
+    std::int64_t last_us_ = monotonic_us();
+};
+
+/// What is written beside the cloud; empty names are left out.
+struct PictureNames
+{
+    std::string left;      ///< as it was matched, .jpg
+    std::string disparity; ///< in colour, .png
+    std::string preview;   ///< the cloud from two viewpoints, .png
+};
+
+/// One pair at a time; the results of a stage stay until the next pair.
+class CloudWork
+{
+public:
+    /// Takes all memory and starts the threads. `scratch_bytes`: what PairSource::fill() needs.
+    static Result<std::unique_ptr<CloudWork>> make(const CloudPlan& plan, std::size_t scratch_bytes);
+
+    /// From the source to points, matched with a bar of progress where `shows_progress`. Errors: the source's, those of
+    /// write_png().
+    Status see(PairSource& source, const PictureNames& names, bool shows_progress);
+    /// Compresses what was seen and proves it. Errors: those of encode_cloud().
+    Status encode();
+    Status write_cloud(const std::string& path);
+    Status write_ply(const std::string& path);
+    Status write_preview(const PictureNames& names);
+
+    const PointCloud& cloud() const noexcept { return cloud_; }
+    const PixelCount& pixels() const noexcept { return pixels_; }
+    const EncodedCloud& encoded() const noexcept { return encoded_; }
+    const ProcessBudget& budget() const noexcept { return bench_.budget(); }
+    const CloudPlan& plan() const noexcept { return plan_; }
+    StageTimes times;
+
+private:
+    CloudWork(const CloudPlan& plan, ProcessBench bench);
+
+    const CloudPlan& plan_;
+    ProcessBench bench_;
+    ThreadCrew crew_;
+    PointCloud cloud_;
+    PixelCount pixels_;
+    EncodedCloud encoded_;
+};
+
+} // namespace dicot::app

@@ -1,0 +1,70 @@
+#include "config_checks.h"
+#include "config_keys.h"
+
+#include "dicot/os/shown_path.h"
+#include "dicot/replay/replay_script.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+
+namespace dicot::app {
+namespace {
+
+/// The last line of those that say one of these keys: where the contradiction arises.
+int line_of(const LoadedConfig& loaded, const char* section, std::initializer_list<const char*> names)
+{
+    int line = 0;
+    for (std::size_t i = 0; i < loaded.lines.size(); ++i)
+        for (const char* name : names)
+            if (std::strcmp(config_keys()[i].section, section) == 0 && std::strcmp(config_keys()[i].name, name) == 0)
+                line = std::max(line, loaded.lines[i]);
+    return line;
+}
+
+Status check_bindings(const LoadedConfig& loaded, const char* file)
+{
+    const CameraBinding& left = loaded.config.cameras.left;
+    const CameraBinding& right = loaded.config.cameras.right;
+    const int line = line_of(loaded, "cameras", {"left", "right"});
+    if ((left.by == BoundBy::kReplay) != (right.by == BoundBy::kReplay))
+        return failure(Fault::kConfig,
+                       "%s:%d: [cameras] recorded pictures on the %s side alone: bind both sides to a folder "
+                       "(\"replay:FOLDER\", the same one may hold both) or to cameras",
+                       file, line, left.by == BoundBy::kReplay ? "left" : "right");
+    if (left == right && (left.by == BoundBy::kPort || left.by == BoundBy::kSerial))
+        return failure(Fault::kConfig,
+                       "%s:%d: [cameras] left and right are both \"%s\": one camera cannot stand on both sides; dicot "
+                       "probe lists the cameras",
+                       file, line, text_of(left).c_str());
+    return {};
+}
+
+Status check_scripts(const LoadedConfig& loaded, const char* file)
+{
+    const auto check = [&](const char* key, const std::string& script) {
+        char name[300];
+        std::snprintf(name, sizeof name, "%s:%d: [cameras] replay_script and %s together", file,
+                      line_of(loaded, "cameras", {"replay_script", key}), key);
+        return parse_replay_script(script, name).status();
+    };
+    TRY(check("replay_script_left", loaded.config.cameras.left_script()));
+    return check("replay_script_right", loaded.config.cameras.right_script());
+}
+
+} // namespace
+
+Status check_together(const LoadedConfig& loaded)
+{
+    const char* file = shown_path(loaded.file.c_str());
+    TRY(check_bindings(loaded, file));
+    TRY(check_scripts(loaded, file));
+    const RigConfig& rig = loaded.config.rig;
+    if (rig.near_mm && rig.far_mm && *rig.near_mm >= *rig.far_mm)
+        return failure(Fault::kConfig,
+                       "%s:%d: [rig] near_mm is %g and far_mm %g: the plants must begin before they end", file,
+                       line_of(loaded, "rig", {"near_mm", "far_mm"}), *rig.near_mm, *rig.far_mm);
+    return {};
+}
+
+} // namespace dicot::app

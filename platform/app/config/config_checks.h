@@ -1,0 +1,12 @@
+// What one key cannot see: values that contradict each other.
+#pragma once
+
+#include "config.h"
+
+namespace dicot::app {
+
+/// Fault::kConfig, with loaded.file and the line: one camera on both sides, recorded pictures beside a camera, a range
+/// that ends before it begins, scripts that do not go together.
+Status check_together(const LoadedConfig& loaded);
+
+} // namespace dicot::app

@@ -1,0 +1,104 @@
+#include "config_keys.h"
+
+#include "dicot/kernels/kernels.h"
+#include "dicot/os/thread_crew.h"
+
+namespace dicot::app {
+namespace {
+
+template <typename Value, auto Section, auto Member>
+constexpr Reach<Value> reach()
+{
+    return {[](Config& config) -> Value& { return (config.*Section).*Member; },
+            [](const Config& config) -> const Value& { return (config.*Section).*Member; }};
+}
+
+template <auto Member>
+constexpr auto cameras_text = reach<std::string, &Config::cameras, Member>();
+template <auto Member>
+constexpr auto cameras_whole = reach<int, &Config::cameras, Member>();
+template <auto Member>
+constexpr auto matching_text = reach<std::string, &Config::matching, Member>();
+template <auto Member>
+constexpr auto matching_number = reach<double, &Config::matching, Member>();
+
+constexpr const char* kDrivers[] = {"auto", "v4l2", "uvc"};
+constexpr PixelFormat kFormats[] = {PixelFormat::kYuyv, PixelFormat::kNv12, PixelFormat::kMjpeg, PixelFormat::kGrey};
+constexpr int kPowerLines[] = {0, 50, 60};
+constexpr const char* kMethods[] = {"paper", "standard"};
+constexpr const char* kCosts[] = {"adcensus", "tad"};
+constexpr const char* kCpus[] = {"auto", "scalar", "avx2", "neon"};
+constexpr double kFarthestMm = 1'000'000; // as for calibrate
+
+const ConfigKey kKeys[] = {
+    {"cameras", "left", "", "The camera on the left; dicot probe lists ports and serial numbers",
+     BindingKey{reach<CameraBinding, &Config::cameras, &CamerasConfig::left>()}},
+    {"cameras", "right", "", "The camera on the right; one folder may hold the recorded pictures of both",
+     BindingKey{reach<CameraBinding, &Config::cameras, &CamerasConfig::right>()}},
+    {"cameras", "driver", "", "The kernel's driver, or libusb; auto: the kernel's where it has the camera",
+     ChoiceKey{cameras_text<&CamerasConfig::driver>, kDrivers}},
+    {"cameras", "formats", "", "What the cameras may send, in order of preference",
+     FormatsKey{reach<std::vector<PixelFormat>, &Config::cameras, &CamerasConfig::formats>(), kFormats}},
+    {"cameras", "width", "px", "Width of a picture, as in the rig file",
+     WholeKey{cameras_whole<&CamerasConfig::width>, 16, 8192, {}}},
+    {"cameras", "height", "px", "Height of a picture, as in the rig file",
+     WholeKey{cameras_whole<&CamerasConfig::height>, 16, 8192, {}}},
+    {"cameras", "fps", "frames/s", "The rate at most; less where the bus is too narrow",
+     WholeKey{cameras_whole<&CamerasConfig::fps>, 1, 240, {}}},
+    {"cameras", "replay_script", "", "Rate and faults of recorded pictures, for trials",
+     ScriptKey{cameras_text<&CamerasConfig::replay_script>}},
+    {"cameras", "replay_script_left", "", "More of it, for the left camera alone",
+     ScriptKey{cameras_text<&CamerasConfig::replay_script_left>}},
+    {"cameras", "replay_script_right", "", "More of it, for the right camera alone",
+     ScriptKey{cameras_text<&CamerasConfig::replay_script_right>}},
+
+    {"exposure", "lock", "", "One camera finds exposure, gain and white balance; both keep them",
+     FlagKey{reach<bool, &Config::exposure, &ExposureConfig::lock>()}},
+    {"exposure", "power_line_hz", "Hz", "Of the power line, on which lamps flicker; 0: they do not",
+     WholeKey{reach<int, &Config::exposure, &ExposureConfig::power_line_hz>(), 0, 60, kPowerLines}},
+    {"exposure", "warm_up_s", "s", "Time at most until the brightness rests; then pictures are taken all the same",
+     NumberKey{reach<double, &Config::exposure, &ExposureConfig::warm_up_s>(), 0.5, 120}},
+
+    {"burst", "frames", "pairs", "How many are looked at for one snapshot",
+     WholeKey{reach<int, &Config::burst, &BurstConfig::frames>(), 1, 64, {}}},
+    {"burst", "average", "", "Resting pixels are averaged over the burst: less noise",
+     FlagKey{reach<bool, &Config::burst, &BurstConfig::average>()}},
+    {"burst", "most_skew_ms", "ms", "Time between left and right at most; a pair that is further apart is refused",
+     NumberKey{reach<double, &Config::burst, &BurstConfig::most_skew_ms>(), 0.1, 1000}},
+    {"burst", "one_after_the_other", "", "Allowed if the bus does not carry both cameras at once",
+     FlagKey{reach<bool, &Config::burst, &BurstConfig::one_after_the_other>()}},
+
+    {"rig", "file", "", "The rig file, as dicot calibrate writes it",
+     PathKey{reach<std::string, &Config::rig, &RigConfig::file>()}},
+    {"rig", "near_mm", "mm", "Where the plants begin; open: the rig file's",
+     OpenNumberKey{reach<std::optional<double>, &Config::rig, &RigConfig::near_mm>(), 1, kFarthestMm}},
+    {"rig", "far_mm", "mm", "Where they end; open: the rig file's",
+     OpenNumberKey{reach<std::optional<double>, &Config::rig, &RigConfig::far_mm>(), 1, kFarthestMm}},
+
+    {"matching", "method", "", "The published equations alone, or checked and refined",
+     ChoiceKey{matching_text<&MatchingConfig::method>, kMethods}},
+    {"matching", "cost", "", "AD-Census, or truncated absolute differences",
+     ChoiceKey{matching_text<&MatchingConfig::cost>, kCosts}},
+    {"matching", "window", "px", "Side of the support window",
+     WholeKey{reach<int, &Config::matching, &MatchingConfig::window>(), 3, kMaxWindow, {}, true}},
+    {"matching", "gamma_color", "CIELAB units", "Colour tolerance of the support weights",
+     NumberKey{matching_number<&MatchingConfig::gamma_color>, 0.5, 100}},
+    {"matching", "gamma_space", "px", "Reach of the support weights",
+     NumberKey{matching_number<&MatchingConfig::gamma_space>, 0.5, 1000}},
+    {"matching", "cpu", "", "Instruction set; never changes the result",
+     ChoiceKey{matching_text<&MatchingConfig::cpu>, kCpus}},
+    {"matching", "threads", "", "Worker threads, 0: one for each processor; never changes the result",
+     WholeKey{reach<int, &Config::matching, &MatchingConfig::threads>(), 0, ThreadCrew::kMaxThreads, {}}},
+
+    {"output", "folder", "", "Where snapshots go; without this key the folder that dicot is started in",
+     PathKey{reach<std::string, &Config::output, &OutputConfig::folder>()}},
+};
+
+} // namespace
+
+std::span<const ConfigKey> config_keys()
+{
+    return kKeys;
+}
+
+} // namespace dicot::app
