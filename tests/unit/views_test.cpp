@@ -186,5 +186,19 @@ TEST_F(TwoViews, TheSmallestAndOddSizesAreHeld)
     }
 }
 
+TEST_F(TwoViews, StripsAreHeld)
+{
+    std::mt19937 random{kSeed};
+    std::vector<std::uint8_t> noise(std::size_t{kMinViewSide} * kMaxViewSide);
+    for (std::uint8_t& pixel : noise)
+        pixel = static_cast<std::uint8_t>(random());
+    for (const auto& strip : {ImageView<const std::uint8_t>{noise.data(), kMinViewSide, kMaxViewSide},
+                              ImageView<const std::uint8_t>{noise.data(), kMaxViewSide, kMinViewSide}}) {
+        const Result<Views> views = compare(strip, strip);
+        ASSERT_TRUE(views.ok()) << views.status().message();
+        EXPECT_NE(views.value().order, Order::kSwapped);
+    }
+}
+
 } // namespace
 } // namespace dicot::aiming

@@ -88,6 +88,8 @@ public:
         const Status stopped = stream_.stop();
         if (!looked.ok() && looked.fault() == Fault::kIoError)
             return looked; // nobody reads a summary
+        if (now_.pairs > 0)
+            tell_time(); // a camera that died has taken its time
         TRY(screen_.end(now_));
         return looked.ok() ? stopped : looked;
     }
@@ -96,11 +98,10 @@ private:
     Status look(double seconds)
     {
         TRY(stream_.start());
-        const std::int64_t begun_us = stream_.now_us();
-        std::int64_t due_us = begun_us;
+        begun_us_ = stream_.now_us();
+        std::int64_t due_us = begun_us_;
         for (;;) {
-            const std::int64_t now_us = stream_.now_us();
-            now_.elapsed_s = static_cast<double>(now_us - begun_us) * 1e-6;
+            tell_time();
             if (StopRequest::asked() || (seconds > 0 && now_.elapsed_s >= seconds))
                 return {};
             const LivePair pair = TRY(stream_.next(table_.left_colour, table_.right_colour));
@@ -114,6 +115,8 @@ private:
             TRY(screen_.show(now_));
         }
     }
+
+    void tell_time() { now_.elapsed_s = static_cast<double>(stream_.now_us() - begun_us_) * 1e-6; }
 
     void count_frames()
     {
@@ -146,6 +149,7 @@ private:
     AimScreen screen_;
     AimMoment now_;
     Rate left_rate_, right_rate_;
+    std::int64_t begun_us_ = 0;
 };
 
 } // namespace
