@@ -170,6 +170,19 @@ Status tell(const Words& words, const CalibrationRun& run, int threads, const Wr
     return {};
 }
 
+/// The outputs are looked at before somebody holds boards for nothing.
+Status take_pairs_first(const Words& words, const CalibrationPlan& plan, Crew& crew)
+{
+    TRY(check_distinct({plan.sets.front().folder}, {words.report}));
+    const bool makes_report = !words.report.empty() && !is_there(words.report);
+    Status outcome = check(words, {});
+    if (outcome.ok())
+        outcome = take_pairs(live_plan(words.live, plan, words.output, words.json), crew);
+    if (!outcome.ok() && makes_report)
+        (void)::rmdir(words.report.c_str());
+    return outcome;
+}
+
 Status run(const Words& words)
 {
     CalibrationPlan plan = words.plan;
@@ -184,11 +197,8 @@ Status run(const Words& words)
     const int threads = words.threads > 0 ? words.threads : std::min(ThreadCrew::processors(), ThreadCrew::kMaxThreads);
     ThreadCrew crew(threads);
     TRY(crew.started());
-    if (words.live.on) {
-        TRY(check_distinct({plan.sets.front().folder}, {words.report}));
-        TRY(check(words, run)); // before somebody holds boards for nothing
-        TRY(take_pairs(live_plan(words.live, plan, words.output, words.json), crew));
-    }
+    if (words.live.on)
+        TRY(take_pairs_first(words, plan, crew));
     TRY(date_rig(run.rig));
     TRY(list_pairs(plan, run));
     TRY(check(words, run));

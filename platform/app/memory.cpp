@@ -1,10 +1,12 @@
 // dicot memory: what a configuration will take, before it takes it.
+#include "cameras/shot.h"
 #include "commands.h"
 #include "match_bench.h"
 #include "match_words.h"
 #include "process_bench.h"
 
 #include "dicot/os/process_memory.h"
+#include "dicot/uvc/uvc_camera.h"
 
 #include <nlohmann/json.hpp>
 
@@ -17,6 +19,12 @@ namespace {
 /// Threads' stacks, what the C library keeps, and pages of code that the bare program has not touched yet: 0.9 MiB
 /// seen. The decoders have given their memory back before the matcher touches its own.
 constexpr std::size_t kWorkingBytes = std::size_t{1088} * 1024;
+
+/// The frames that UvcCamera keeps; through the kernel's driver they are the kernel's.
+std::size_t uvc_camera_bytes(int width, int height)
+{
+    return static_cast<std::size_t>(UvcOptions{}.slots) * frame_bytes({PixelFormat::kYuyv, width, height, 0});
+}
 
 struct Words
 {
@@ -32,6 +40,9 @@ Status run(const Words& words)
     const MatchOptions options = words.match.resolved();
     const MatchBudget budget = TRY(match_budget(words.width, words.height, options, threads));
     const Result<ProcessBudget> process = process_budget(words.width, words.height, Pictures::kRaw, options, threads);
+    const std::size_t shot = Shot::scratch_bytes(words.width, words.height);
+    const Result<ProcessBudget> snap =
+        process_budget(words.width, words.height, Pictures::kRaw, options, threads, shot);
     const ProcessMemory bare = TRY(process_memory());
     const std::size_t program = static_cast<std::size_t>(bare.resident_bytes) + kWorkingBytes;
     const std::size_t total = program + budget.total();
@@ -47,6 +58,8 @@ Status run(const Words& words)
                                  {"total_bytes", total}};
         report["process_total_bytes"] =
             process.ok() ? nlohmann::json(program + process.value().total()) : nlohmann::json();
+        report["snap_total_bytes"] = snap.ok() ? nlohmann::json(program + snap.value().total()) : nlohmann::json();
+        report["uvc_camera_bytes"] = uvc_camera_bytes(words.width, words.height);
         std::printf("%s\n", report.dump(2).c_str());
         return {};
     }
@@ -60,10 +73,13 @@ Status run(const Words& words)
     line("matcher: tables, planes, maps", budget.matcher);
     line("output", budget.output);
     line("peak of dicot match", total);
-    if (process.ok())
-        line("dicot process takes at most", program + process.value().total());
-    else
+    if (!process.ok() || !snap.ok()) {
         std::printf("dicot process: %s\n", process.status().message());
+        return {};
+    }
+    line("dicot process takes at most", program + process.value().total());
+    line("dicot snap takes at most", program + snap.value().total());
+    line("and for each camera through libusb", uvc_camera_bytes(words.width, words.height));
     return {};
 }
 

@@ -1,4 +1,5 @@
 // dicot snap: from two cameras to one compressed cloud, once.
+#include "cameras/drawn_pair.h"
 #include "cameras/shot_record.h"
 #include "cloud_report.h"
 #include "commands.h"
@@ -116,8 +117,14 @@ void print(const nlohmann::json& record, const std::string& folder)
 
 Status run(const Words& words)
 {
-    const LoadedConfig loaded = TRY(words.config.load());
-    const Config& config = loaded.config;
+    LoadedConfig loaded = TRY(words.config.load());
+    Config& config = loaded.config;
+    DrawnRig drawn;
+    const bool is_drawn = loaded.file.empty() && no_camera_is_there();
+    if (is_drawn) { // a board in the field has a configuration, and is never shown a plant that is not there
+        TRY(drawn.open(config));
+        std::fprintf(stderr, "dicot: there is no camera and no configuration: a drawn pair of pictures is used\n");
+    }
     const std::int64_t began_us = utc_now_us();
     const std::string around = words.folder.empty() ? config.output.folder : words.folder;
     PartFolder folder;
@@ -127,6 +134,9 @@ Status run(const Words& words)
     const Status status = shoot(words, config, folder.path(), snapshot);
     if (status.fault() == Fault::kConfig || status.fault() == Fault::kUsage) // nothing was tried
         return status;
+    snapshot.record["source"] = is_drawn                                     ? "drawn pictures"
+                                : config.cameras.left.by == BoundBy::kReplay ? "recorded pictures"
+                                                                             : "cameras";
     snapshot.record["outcome"] = status.ok() ? "done" : "missed";
     snapshot.record["reason"] = status.ok() ? nlohmann::json() : nlohmann::json(status.message());
     snapshot.record["warnings"] = snapshot.warnings;

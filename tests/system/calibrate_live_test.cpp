@@ -235,7 +235,8 @@ TEST(CalibrateLive, LeavesNothingBehindWhereNoBoardIsSeen)
     Cameras cameras;
     cameras.show(photos.path("left.pgm"), photos.path("right.pgm"));
     const TempFolder out;
-    const ToolRun run = live("--config " + cameras.config() + kBoardWords + "--seconds 3 -o " + out.path("r.yaml"));
+    const ToolRun run = live("--config " + cameras.config() + kBoardWords + "--seconds 3 --report " +
+                             out.path("report") + " -o " + out.path("r.yaml"));
     EXPECT_EQ(run.exit_code, 75) << run.output;
     EXPECT_THAT(run.output, HasSubstr("0 pairs in 3 s are too few"));
     EXPECT_THAT(run.output, HasSubstr("show the whole board to both cameras"));

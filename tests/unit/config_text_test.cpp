@@ -22,11 +22,27 @@ TEST(ConfigText, WhatIsPrintedMeansTheSameInEveryFolder)
 {
     const char* const kTexts[] = {
         "",
-        "[cameras]\nleft = 'serial:\"\\'\nright = '3-1.4'\nformats = ['MJPEG']\nreplay_script = \"rate 3\\n\\tdrop 4 # "
-        "\\u0000\\u007f\"\n"
-        "[exposure]\nlock = false\nwarm_up_s = 0.7\n[rig]\nfile = 'ä/\"b\"'\nnear_mm = 250.125\nfar_mm = 1000000\n",
-        "[cameras]\nleft = 'replay:pairs'\nright = 'replay:./pairs'\n[output]\nfolder = 'out'\n[matching]\ngamma_color "
-        "= 0.5\n",
+        R"([cameras]
+left = 'serial:"\'
+right = '3-1.4'
+formats = ['MJPEG']
+replay_script = "rate 3\n\tdrop 4 # \u0000\u007f"
+[exposure]
+lock = false
+warm_up_s = 0.7
+[rig]
+file = 'ä/"b"'
+near_mm = 250.125
+far_mm = 1000000
+)",
+        R"([cameras]
+left = 'replay:pairs'
+right = 'replay:./pairs'
+[output]
+folder = 'out'
+[matching]
+gamma_color = 0.5
+)",
     };
     for (const char* text : kTexts) {
         const Result<LoadedConfig> first = parse_config(text, "a\nb.toml", "conf");
@@ -36,6 +52,15 @@ TEST(ConfigText, WhatIsPrintedMeansTheSameInEveryFolder)
         ASSERT_TRUE(second.ok()) << second.status().message() << "\n" << printed;
         expect_same(second.value().config, all_taken_from("/here", first.value().config));
     }
+}
+
+TEST(ConfigText, PathsArePrintedFromTheRoot)
+{
+    const std::string text = "[cameras]\nleft = 'replay:a'\nright = 'replay:/b'\n[output]\nfolder = '.'\n";
+    const std::string printed = config_toml(parse_config(text, "conf/a.toml", "conf").value(), "/here");
+    EXPECT_NE(printed.find("\nleft = \"replay:/here/conf/a\"\n"), std::string::npos) << printed;
+    EXPECT_NE(printed.find("\nright = \"replay:/b\"\n"), std::string::npos) << printed;
+    EXPECT_NE(printed.find("\nfolder = \"/here/conf\"\n"), std::string::npos) << printed;
 }
 
 TEST(ConfigText, EachKeySaysWhereItsValueComesFrom)

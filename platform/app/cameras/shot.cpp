@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <utility>
 
 namespace dicot::app {
 namespace {
@@ -44,7 +43,7 @@ std::int64_t utc_us()
 
 } // namespace
 
-Shot::Shot(RigStream& rig, const Config& config, std::string raw_folder) : rig_(rig)
+Shot::Shot(RigStream& rig, const Config& config, const std::string& raw_folder) : rig_(rig)
 {
     rules_.pairs = config.burst.frames;
     rules_.average = config.burst.average;

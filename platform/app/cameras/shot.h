@@ -31,7 +31,7 @@ class Shot final : public PairSource
 {
 public:
     /// `raw_folder`: where fill() writes left.png and right.png as the cameras saw them; empty: nowhere.
-    Shot(RigStream& rig, const Config& config, std::string raw_folder);
+    Shot(RigStream& rig, const Config& config, const std::string& raw_folder);
 
     /// What take() and fill() need for pictures of this size.
     static std::size_t scratch_bytes(int width, int height);

@@ -9,11 +9,11 @@ namespace dicot::app {
 
 Status LiveOptions::refuse_without_live() const
 {
-    const char* word = resume            ? "--resume"
-                       : pairs           ? "--pairs"
-                       : seconds         ? "--seconds"
-                       : !config.empty() ? "--config"
-                                         : nullptr;
+    const char* word = resume                 ? "--resume"
+                       : pairs                ? "--pairs"
+                       : seconds              ? "--seconds"
+                       : !config.file.empty() ? "--config"
+                                              : nullptr;
     if (word != nullptr)
         return failure(Fault::kUsage, "calibrate: %s goes with --live", word);
     return {};
@@ -32,7 +32,7 @@ void add_live_options(CLI::App& command, LiveOptions& options)
                         std::to_string(static_cast<int>(kUsualLiveSeconds)) + " if not given")
         ->check(CLI::Range(1.0, 86400.0));
     command.add_flag("--resume", options.resume, "live: go on with the pairs of an earlier run in the folder");
-    command.add_option("--config", options.config, "live: configuration with the cameras");
+    options.config.add_to(command);
 }
 
 Result<std::vector<PictureSet>> read_live_words(std::span<const BoardWord> words, const std::string& rig_path)
@@ -58,7 +58,7 @@ LivePlan live_plan(const LiveOptions& options, const CalibrationPlan& plan, cons
     live.seconds = options.seconds.value_or(kUsualLiveSeconds);
     live.folder = plan.sets.front().folder;
     live.resume = options.resume;
-    live.config = options.config;
+    live.config = options.config.file;
     live.rig = rig_path;
     live.json = json;
     return live;

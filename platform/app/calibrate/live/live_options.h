@@ -1,10 +1,9 @@
 // The words of the command line that a live calibration has of its own.
 #pragma once
 
+#include "../../config_words.h"
 #include "../board_words.h"
 #include "live_run.h"
-
-#include <CLI/CLI.hpp>
 
 #include <optional>
 #include <string>
@@ -17,7 +16,7 @@ struct LiveOptions
     bool resume = false;
     std::optional<int> pairs;
     std::optional<double> seconds;
-    std::string config;
+    ConfigWords config;
 
     /// Fault::kUsage: one of these words stands without --live.
     Status refuse_without_live() const;

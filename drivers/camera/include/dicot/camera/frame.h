@@ -70,7 +70,8 @@ public:
 private:
     void let_go() noexcept
     {
-        if (owner_ != nullptr)
+        // The analyzer takes a lease that TRY() left unmade for one that has to be destroyed.
+        if (owner_ != nullptr) // NOLINT(clang-analyzer-core.UndefinedBinaryOperatorResult)
             std::exchange(owner_, nullptr)->give_back(slot_);
     }
 

@@ -1,0 +1,196 @@
+// The program itself before recorded cameras: snapshots and captures, whole or missed with a reason.
+#include "cameras/drawn_pair.h"
+#include "temp_folder.h"
+#include "tool.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace dicot {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::Bytes;
+using test::ToolRun;
+using testing::HasSubstr;
+
+ToolRun dicot(const std::string& words)
+{
+    return test::run(std::string{DICOT_PROGRAM} + " " + words);
+}
+
+json json_in(const std::string& output)
+{
+    const std::size_t begin = output.find("{\n");
+    return begin == std::string::npos ? json::object() : json::parse(output.substr(begin));
+}
+
+json json_file(const fs::path& path)
+{
+    std::ifstream file(path);
+    return json::parse(file);
+}
+
+Bytes bytes_of(const fs::path& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The drawn pair as a folder of recorded pictures with a rig file, and configurations that name it.
+class Recorded : public testing::Test
+{
+protected:
+    static void SetUpTestSuite()
+    {
+        folder_ = new test::TempFolder;
+        app::Config config;
+        app::DrawnRig drawn;
+        ASSERT_TRUE(drawn.open(config).ok());
+        const fs::path from = config.cameras.left.what;
+        fs::create_directory(folder_->path("pairs"));
+        for (const char* side : {"left", "right"})
+            fs::copy(from / (std::string(side) + ".png"), folder_->path(std::string("pairs/") + side + "01.png"));
+        fs::copy(config.rig.file, folder_->path("rig.yaml"));
+    }
+    static void TearDownTestSuite()
+    {
+        delete folder_;
+        folder_ = nullptr;
+    }
+    static void write(const std::string& name, const std::string& text) { std::ofstream(folder_->path(name)) << text; }
+    /// A configuration whose [cameras] also hold `more`; the words that name it.
+    static std::string config(const std::string& more = "", const std::string& sections = "")
+    {
+        write("dicot.toml", "[cameras]\nleft = \"replay:pairs\"\nright = \"replay:pairs\"\n" + more +
+                                "\n[rig]\nfile = \"rig.yaml\"\n" + sections);
+        return " --config " + folder_->path("dicot.toml") + " ";
+    }
+
+    static test::TempFolder* folder_;
+};
+test::TempFolder* Recorded::folder_ = nullptr;
+
+TEST_F(Recorded, WithoutCameraAndConfigurationAPairIsDrawnAndSaidToBe)
+{
+    if (!app::no_camera_is_there() || fs::exists(app::kDefaultConfigFile))
+        GTEST_SKIP() << "this computer has cameras, or a configuration: nothing is drawn";
+    const ToolRun run = dicot("snap --raw --json -o " + folder_->path("first"));
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    const json record = json_in(run.output);
+    EXPECT_EQ(record["source"], "drawn pictures");
+    EXPECT_EQ(record["outcome"], "done");
+    EXPECT_GT(record["cloud"]["points"].get<int>(), 50'000);
+    const fs::path shot = record["folder"].get<std::string>();
+    for (const char* name : {"cloud.drc", "left.png", "right.png", "rectified_left.jpg", "record.json"})
+        EXPECT_TRUE(fs::exists(shot / name)) << name;
+}
+
+TEST_F(Recorded, TheCloudOfASnapshotIsThatOfTheFiles)
+{
+    const ToolRun snap = dicot("snap --json" + config() + "-o " + folder_->path("same"));
+    ASSERT_EQ(snap.exit_code, 0) << snap.output;
+    const json record = json_in(snap.output);
+    const ToolRun process =
+        dicot("process " + folder_->path("pairs/left01.png") + " " + folder_->path("pairs/right01.png") + " --rig " +
+              folder_->path("rig.yaml") + " -o " + folder_->path("files.drc"));
+    ASSERT_EQ(process.exit_code, 0) << process.output;
+    EXPECT_EQ(bytes_of(record["folder"].get<std::string>() + "/cloud.drc"), bytes_of(folder_->path("files.drc")));
+    EXPECT_EQ(record["source"], "recorded pictures");
+    EXPECT_EQ(record["shot"]["views"]["order"], "as named");
+    EXPECT_EQ(record["shot"]["pairs_used"], 8);
+    EXPECT_EQ(record["cameras"]["left"]["warm_up"]["state"], "settled");
+    EXPECT_EQ(json_file(record["folder"].get<std::string>() + "/record.json")["cloud"]["points"],
+              record["cloud"]["points"]);
+}
+
+TEST_F(Recorded, CamerasThatAreSwappedAreNamed)
+{
+    fs::create_directory(folder_->path("swapped"));
+    fs::copy(folder_->path("pairs/left01.png"), folder_->path("swapped/right01.png"));
+    fs::copy(folder_->path("pairs/right01.png"), folder_->path("swapped/left01.png"));
+    write("swapped.toml", "[cameras]\nleft = \"replay:swapped\"\nright = \"replay:swapped\"\n");
+    const ToolRun run = dicot("capture --config " + folder_->path("swapped.toml") + " -o " + folder_->path("turned"));
+    EXPECT_EQ(run.exit_code, 0) << run.output;
+    EXPECT_THAT(run.output, HasSubstr("the left and the right camera seem to be swapped"));
+    EXPECT_EQ(json_file(folder_->path("turned/record.json"))["pairs"][0]["views"]["order"], "swapped");
+}
+
+TEST_F(Recorded, SeveralPairsAreNumberedAndNeverWrittenOver)
+{
+    const std::string words = "capture --pairs 3" + config() + "-o " + folder_->path("three");
+    const ToolRun run = dicot(words);
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    for (const char* name : {"left001.png", "right001.png", "left003.png", "right003.png"})
+        EXPECT_EQ(
+            bytes_of(folder_->path(std::string("three/") + name)).size(),
+            bytes_of(folder_->path("three/" + std::string(name).substr(0, std::string(name).find('0')) + "002.png"))
+                .size())
+            << name;
+    const json record = json_file(folder_->path("three/record.json"));
+    EXPECT_EQ(record["pairs"].size(), 3U);
+    EXPECT_EQ(record["pairs"][2]["left"], "left003.png");
+    const ToolRun again = dicot(words);
+    EXPECT_EQ(again.exit_code, 73);
+    EXPECT_THAT(again.output, HasSubstr("left001.png is there already"));
+}
+
+struct Miss
+{
+    const char* script;
+    const char* reason;
+};
+
+TEST_F(Recorded, AMissIsRecordedWithItsReason)
+{
+    int number = 0;
+    for (const Miss& miss :
+         {Miss{"hang 50", "given up after 2 restarts, 2 reopens and 1 port resets"},
+          Miss{"gone 3", "is gone; check its plug and cable"},
+          Miss{"skew_us 12000", "8 began more than 10000 us apart"}, Miss{"full 100", "no bandwidth left"}}) {
+        const std::string out = folder_->path("miss" + std::to_string(number++));
+        const ToolRun run =
+            dicot("snap" + config(std::string("replay_script_right = \"") + miss.script + "\"") + "-o " + out);
+        EXPECT_EQ(run.exit_code, 69) << miss.script << run.output;
+        EXPECT_THAT(run.output, HasSubstr(miss.reason));
+        ASSERT_FALSE(fs::is_empty(out)) << miss.script;
+        const fs::path shot = *fs::directory_iterator(out);
+        const json record = json_file(shot / "record.json");
+        EXPECT_EQ(record["outcome"], "missed");
+        EXPECT_THAT(record["reason"].get<std::string>(), HasSubstr(miss.reason));
+        EXPECT_FALSE(fs::exists(shot / "cloud.drc"));
+        EXPECT_EQ(std::distance(fs::directory_iterator(out), {}), 1);
+    }
+}
+
+TEST_F(Recorded, ACameraThatRecoversMakesASnapshotThatSaysSo)
+{
+    const ToolRun run =
+        dicot("snap --json" + config("replay_script_left = \"hang 60 port\"") + "-o " + folder_->path("shaken"));
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    const json ladder = json_in(run.output)["cameras"]["left"]["ladder"];
+    EXPECT_EQ(ladder["recoveries"], 1);
+    EXPECT_EQ(ladder["port_resets"], 1);
+}
+
+TEST_F(Recorded, WhatWasNeverTriedLeavesNothing)
+{
+    const ToolRun wrong = dicot("snap" + config("replay_script = \"explode 3\"") + "-o " + folder_->path("nothing"));
+    EXPECT_EQ(wrong.exit_code, 78) << wrong.output;
+    EXPECT_THAT(wrong.output, HasSubstr("explode 3"));
+    EXPECT_FALSE(fs::exists(folder_->path("nothing")));
+    write("norig.toml", "[cameras]\nleft = \"replay:pairs\"\nright = \"replay:pairs\"\n[rig]\nfile = \"none.yaml\"\n");
+    const ToolRun no_rig = dicot("snap --config " + folder_->path("norig.toml") + " -o " + folder_->path("norig"));
+    EXPECT_NE(no_rig.exit_code, 0);
+    EXPECT_THAT(no_rig.output, HasSubstr("none.yaml"));
+}
+
+} // namespace
+} // namespace dicot
