@@ -7,13 +7,17 @@
 #include <cstddef>
 
 namespace dicot {
+namespace {
+
+constexpr std::int64_t kLeastUs = 2'000'000; // of the second phase
+
+} // namespace
 
 /// Feeds the pictures of streaming cameras until each of them is steady, or its bound is reached.
-Status StereoCamera::settle(std::span<Side* const> sides, std::int64_t until_us)
+Status StereoCamera::settle(std::span<Side* const> sides, std::int64_t most_us)
 {
-    constexpr std::int64_t kLeastUs = 2'000'000;
     SettlingRules rules = rules_.settling;
-    rules.most_us = std::min(rules.most_us, std::max(until_us - now_us(), kLeastUs));
+    rules.most_us = most_us;
     std::array settling{Settling(rules, now_us()), Settling(rules, now_us())};
     for (bool warming = true; warming;) {
         TRY(stopped());
@@ -76,11 +80,11 @@ Status StereoCamera::warm_up_at_once()
     const std::array sides{&left_, &right_};
     const std::int64_t until_us = now_us() + rules_.settling.most_us;
     TRY(let_converge());
-    TRY(settle(sides, until_us));
+    TRY(settle(sides, rules_.settling.most_us));
     if (!rules_.lock_exposure)
         return {};
     TRY(lock());
-    return settle(sides, until_us);
+    return settle(sides, std::max(until_us - now_us(), kLeastUs));
 }
 
 Status StereoCamera::warm_up_in_turn()
@@ -92,7 +96,8 @@ Status StereoCamera::warm_up_in_turn()
         const bool leads = side == &left_ && rules_.lock_exposure;
         if (leads || !rules_.lock_exposure)
             TRY(converge(*side));
-        TRY(settle(std::array{side}, until_us));
+        const std::int64_t left_us = until_us - now_us();
+        TRY(settle(std::array{side}, side == &left_ ? left_us : std::max(left_us, kLeastUs)));
         if (leads)
             TRY(lock());
         (void)end(*side);

@@ -154,7 +154,7 @@ private:
     }
     Result<FrameLease> first_frame(Side& side);
     Status stopped() const noexcept;
-    Status settle(std::span<Side* const> sides, std::int64_t until_us);
+    Status settle(std::span<Side* const> sides, std::int64_t most_us);
     Status converge(Side& side);
     Status lock();
     Status warm_up_at_once();
