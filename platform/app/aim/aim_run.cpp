@@ -98,15 +98,18 @@ private:
     Status look(double seconds)
     {
         TRY(stream_.start());
+        TRY(stream_.cameras().let_converge());
         begun_us_ = stream_.now_us();
         std::int64_t due_us = begun_us_;
         for (;;) {
             tell_time();
             if (StopRequest::asked() || (seconds > 0 && now_.elapsed_s >= seconds))
                 return {};
-            const LivePair pair = TRY(stream_.next(table_.left_colour, table_.right_colour));
+            const Result<LivePair> pair = stream_.next(table_.left_colour, table_.right_colour);
+            if (!pair.ok())
+                return StopRequest::asked() ? Status{} : pair.status();
             ++now_.pairs;
-            now_.skew_us = pair.skew_us;
+            now_.skew_us = pair.value().skew_us;
             count_frames();
             if (stream_.now_us() < due_us)
                 continue;
@@ -140,7 +143,8 @@ private:
         see(now_.left, table_.left_colour, table_.left_grey);
         see(now_.right, table_.right_colour, table_.right_grey);
         Arena scratch(table_.scratch);
-        now_.views = TRY(aiming::compare_views(table_.left_grey, table_.right_grey, scratch));
+        const Result<aiming::Views> views = aiming::compare_views(table_.left_grey, table_.right_grey, scratch);
+        now_.views = views.ok() ? views.value() : aiming::Views{}; // of some sizes they are not known
         return {};
     }
 
