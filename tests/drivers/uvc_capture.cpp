@@ -233,10 +233,12 @@ int ladder(const CameraMode& wanted, int fps, int frames, const std::string& nam
         }
         std::printf("%s\n", lease.status().message());
         bool back = false;
-        while (!back && step < 3) {
-            constexpr const char* names[] = {"restart", "reopen", "port"};
+        while (!back && step < 6) { // a slow machine may need more than one wait for a camera that comes back
+            constexpr const char* names[] = {"restart", "reopen", "reopen", "reopen", "port", "port"};
+            constexpr Shake steps[] = {Shake::kRestart, Shake::kReopen, Shake::kReopen,
+                                       Shake::kReopen,  Shake::kPort,   Shake::kPort};
             const std::int64_t before = monotonic_us();
-            const Status shaken = camera.shake(static_cast<Shake>(step));
+            const Status shaken = camera.shake(steps[step]);
             back = shaken.ok();
             std::printf("shake %s: %s after %lld ms\n", names[step], back ? "ok" : shaken.message(),
                         static_cast<long long>((monotonic_us() - before) / 1000));

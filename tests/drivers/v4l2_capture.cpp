@@ -8,11 +8,13 @@
 //   get NAME | set NAME VALUE
 //   start FORMAT WIDTHxHEIGHT FPS
 //   take N [DIR]                   N frames of each camera, in turn; files DIR/<camera>-<number>.<format>
+//   drain                          frames of each camera until none comes in time
 //   hold N                         N frames that stay lent until "release", which reads them once more
 //   release
 //   cycles N                       more than 10 times start, one frame, stop; then what the process holds
 //   stop | shake restart|reopen|port
-//   wait MS                        time for a frame in "take" (default 3000)
+//   wait MS                        time for a frame in "take" (default 10000)
+//   tries N                        how often a shake is begun until it helps (default 1)
 //
 // "failed ..." answers what did not work, with the fault's number, and the program goes on; exit 1 if there was one.
 #include "holdings.h"
@@ -35,6 +37,7 @@ namespace {
 using namespace dicot;
 
 constexpr long kPagesOfLuckKib = 64;
+constexpr int kMostDrained = 100;
 
 int failures = 0;
 
@@ -102,6 +105,8 @@ public:
             const std::string action = word();
             if (action == "take")
                 take();
+            else if (action == "drain")
+                drain();
             else if (action == "hold")
                 hold(number());
             else if (action == "release")
@@ -110,6 +115,8 @@ public:
                 cycles(number());
             else if (action == "wait")
                 wait_ms_ = number();
+            else if (action == "tries")
+                tries_ = number();
             else if (action == "start")
                 start();
             else
@@ -166,14 +173,15 @@ private:
             std::printf("%s %s %s %d\n", sets ? "set" : "get", camera.identity().port.text, name.c_str(), now.value());
     }
 
-    static void shake(V4l2Camera& camera, const std::string& how)
+    void shake(V4l2Camera& camera, const std::string& how) const
     {
         const std::int64_t from_us = monotonic_us();
-        const Status status = camera.shake(how == "restart"  ? Shake::kRestart
-                                           : how == "reopen" ? Shake::kReopen
-                                                             : Shake::kPort);
+        const Shake step = how == "restart" ? Shake::kRestart : how == "reopen" ? Shake::kReopen : Shake::kPort;
+        Status status = camera.shake(step);
+        for (int i = 1; i < tries_ && !status.ok(); ++i)
+            status = camera.shake(step);
         if (good(status))
-            std::printf("shaken %s %s in %" PRId64 " ms\n", how.c_str(), camera.node(),
+            std::printf("shaken %s %s %s in %" PRId64 " ms\n", how.c_str(), camera.identity().port.text, camera.node(),
                         (monotonic_us() - from_us) / 1000);
     }
 
@@ -207,6 +215,17 @@ private:
                 Result<FrameLease> got = next(*cameras_[c]);
                 if (good(got.status()))
                     report(*got.value(), c, k, folder);
+            }
+    }
+
+    void drain()
+    {
+        for (std::size_t c = 0; c < cameras_.size(); ++c)
+            for (int k = 0; k < kMostDrained; ++k) {
+                Result<FrameLease> got = next(*cameras_[c]);
+                if (!good(got.status()))
+                    break;
+                report(*got.value(), c, k, "");
             }
     }
 
@@ -297,7 +316,8 @@ private:
     std::vector<FrameLease> held_; // goes before the cameras do
     std::vector<unsigned> sums_;
     CameraMode mode_{PixelFormat::kYuyv, 640, 480, 333333};
-    int wait_ms_ = 3000;
+    int wait_ms_ = 10000;
+    int tries_ = 1;
 };
 
 } // namespace

@@ -370,6 +370,40 @@ TEST(VirtualCamera, ends_transfers_that_the_host_takes_back)
     EXPECT_EQ(number_at(host.answers_[1], 20), 0u);
 }
 
+TEST(VirtualCamera, waits_for_the_transfer_when_its_unlink_is_ahead_of_it)
+{
+    Host host(false);
+    host.submit_iso(8, 192);
+    Request unlink;
+    unlink.kind = Request::Kind::kUnlink;
+    unlink.sequence = 98;
+    unlink.victim = 2;
+    host.camera_->take(unlink, kStart);
+    EXPECT_TRUE(host.answers_.empty());
+    host.submit_iso(8, 192);
+    ASSERT_EQ(host.answers_.size(), 1u); // for the unlink alone
+    EXPECT_EQ(number_at(host.answers_[0], 4), 98u);
+    EXPECT_EQ(static_cast<std::int32_t>(number_at(host.answers_[0], 20)), -ECONNRESET);
+    EXPECT_FALSE(host.camera_->serve(kStart + VideoStream::kIdle).has_value());
+    for (const Bytes& answer : host.answers_)
+        EXPECT_NE(number_at(answer, 4), 2u);
+
+    // What was submitted before the camera was plugged in anew does not come again.
+    host.camera_->power_on();
+    host.answers_.clear();
+    host.camera_->take(unlink, kStart);
+    ASSERT_EQ(host.answers_.size(), 1u);
+    EXPECT_EQ(number_at(host.answers_[0], 20), 0u);
+    host.answers_.clear();
+    unlink.victim = 3;
+    host.camera_->take(unlink, kStart);
+    EXPECT_TRUE(host.answers_.empty());
+    ASSERT_TRUE(host.camera_->deadline().has_value());
+    EXPECT_FALSE(host.camera_->serve(*host.camera_->deadline()).has_value());
+    ASSERT_EQ(host.answers_.size(), 1u);
+    EXPECT_EQ(number_at(host.answers_[0], 20), 0u);
+}
+
 TEST(FaultPlan, reads_every_place)
 {
     const Result<Line> frame = read_line("left next 12 drop packet=3 count=0", 1);

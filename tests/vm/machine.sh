@@ -11,14 +11,18 @@ quietly() {
     "$@" >"$work/build.log" 2>&1 || { tail -n 30 "$work/build.log" >&2; echo "$name.sh: this failed: $*" >&2; exit 70; }
 }
 
-# What is built for the machine, beside the cameras.
+# What is built for the machine, beside the cameras. Only one of the tests builds at a time: they share the folders.
 build_all() { # targets of the preset arm64
+    exec 9>.build/vm.lock
+    flock 9
     sh toolchain/cross/sysroot.sh arm64 >/dev/null
     quietly cmake --preset release
     quietly cmake --build --preset release --target make_frames
     quietly cmake --preset arm64
     quietly cmake --build --preset arm64 --target usbip_camera "$@"
     tree=$(sh tests/vm/kernel.sh)
+    export tree
+    exec 9>&-
 }
 
 # Two views of one picture, three frames of each, two sizes of the left one.

@@ -44,7 +44,7 @@ trap 'rm -f "$disk"' EXIT
 truncate -s 256M "$disk"
 timeout --foreground --kill-after=5 "$timeout_s" qemu-system-aarch64 -M virt -cpu cortex-a72 -accel tcg -m 512 \
     -nodefaults -display none -nic none -no-reboot -serial stdio \
-    -kernel "$tree/vmlinuz" -initrd "$image" -append "console=ttyAMA0 loglevel=3 panic=-1 oops=panic" \
+    -kernel "$tree/vmlinuz" -initrd "$image" -append "console=ttyAMA0 loglevel=3 panic=-1 oops=panic log_buf_len=2M" \
     -drive "if=none,id=out,file=$disk,format=raw" -device virtio-blk-pci,drive=out \
     </dev/null 2>&1 | tr -d '\r' >"$log"
 

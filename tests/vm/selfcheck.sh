@@ -9,4 +9,4 @@ name=selfcheck
 
 build_all
 make_frames
-run_machine 300 --program "$tree/usr/bin/v4l2-ctl"
+run_machine 480 --program "$tree/usr/bin/v4l2-ctl"

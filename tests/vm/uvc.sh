@@ -8,4 +8,4 @@ name=uvc
 
 build_all uvc_capture
 make_frames
-run_machine 300 --program "$built/drivers/uvc_capture"
+run_machine 480 --program "$built/drivers/uvc_capture"

@@ -6,6 +6,7 @@ cd "$(dirname "$0")/../.." || exit 70
 name=v4l2
 . tests/vm/machine.sh
 
-build_all v4l2_capture
+build_all v4l2_capture dicot
 make_frames
-run_machine 300 --module vivid --program "$tree/usr/bin/v4l2-ctl" --program "$built/drivers/v4l2_capture"
+run_machine 480 --module vivid --program "$tree/usr/bin/v4l2-ctl" --program "$built/drivers/v4l2_capture" \
+    --program .build/arm64/platform/app/dicot

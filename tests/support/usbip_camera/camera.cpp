@@ -10,6 +10,12 @@
 
 namespace dicot::usbip {
 
+namespace {
+
+constexpr Microseconds kTransferFollows = 1'000'000; // an unlink that is ahead, by the next message or the one after
+
+} // namespace
+
 /// The eight bytes that a control request begins with, USB 2.0 table 9-2.
 struct Camera::Setup
 {
@@ -55,6 +61,7 @@ void Camera::power_off()
     stream_.drop_all();
     status_reads_.clear();
     mute_.clear();
+    early_.clear();
 }
 
 void Camera::stop_streaming()
@@ -67,9 +74,11 @@ void Camera::stop_streaming()
 void Camera::take(Request request, Microseconds now)
 {
     if (request.kind == Request::Kind::kUnlink) {
-        unlink(request);
+        unlink(request, now);
         return;
     }
+    if (was_unlinked(request))
+        return;
     if (request.endpoint == kVideoEndpoint && request.in) {
         stream_.submit(std::move(request));
         return;
@@ -93,12 +102,51 @@ void Camera::take(Request request, Microseconds now)
     around_.answer(write_return(request, reply.status, reply.status == 0 ? actual : 0, reply.data, {}));
 }
 
-void Camera::unlink(const Request& request)
+void Camera::unlink(const Request& request, Microseconds now)
 {
+    // The kernel may send this before the transfer itself. If it heard now that there is none, it would give the
+    // transfer back, and take its answer later for an error that unplugs the camera.
+    if (request.victim > last_submitted_) {
+        around_.log("an unlink is ahead of its transfer");
+        early_.push_back({request, now + kTransferFollows});
+        return;
+    }
     const auto is_victim = [&](const Request& waiting) { return waiting.sequence == request.victim; };
     const bool found = stream_.unlink(request.victim) || std::erase_if(status_reads_, is_victim) > 0 ||
                        std::erase_if(mute_, is_victim) > 0;
     around_.answer(write_unlinked(request, found ? -ECONNRESET : 0));
+}
+
+bool Camera::was_unlinked(const Request& request)
+{
+    last_submitted_ = request.sequence;
+    const auto early =
+        std::ranges::find_if(early_, [&](const EarlyUnlink& one) { return one.request.victim == request.sequence; });
+    if (early == early_.end())
+        return false;
+    around_.answer(write_unlinked(early->request, -ECONNRESET));
+    early_.erase(early);
+    return true;
+}
+
+std::optional<Microseconds> Camera::serve(Microseconds now)
+{
+    // A transfer that was under way when the cable went is lost, and its unlink may come over the next connection.
+    std::erase_if(early_, [&](const EarlyUnlink& early) {
+        if (now < early.until)
+            return false;
+        around_.answer(write_unlinked(early.request, 0));
+        return true;
+    });
+    return stream_.serve(now);
+}
+
+std::optional<Microseconds> Camera::deadline() const
+{
+    std::optional<Microseconds> next = stream_.deadline();
+    for (const EarlyUnlink& early : early_)
+        next = next ? std::min(*next, early.until) : early.until;
+    return next;
 }
 
 Reply Camera::control(const std::array<std::uint8_t, 8>& bytes, std::span<const std::uint8_t> out, Microseconds now)
@@ -145,9 +193,12 @@ Reply Camera::standard(const Setup& setup, Microseconds now)
         return set_interface(setup.interface(), setup.value, now);
     case USB_REQ_CLEAR_FEATURE:
         // A host that has done with a bulk endpoint clears its halt, and the camera stops; some clear it at first, too.
-        if (model_.bulk && stream_.has_begun() && (setup.type & USB_RECIP_MASK) == USB_RECIP_ENDPOINT &&
-            (setup.index & 15) == static_cast<int>(kVideoEndpoint))
-            stop_streaming();
+        if ((setup.type & USB_RECIP_MASK) == USB_RECIP_ENDPOINT &&
+            (setup.index & 15) == static_cast<int>(kVideoEndpoint)) {
+            stream_.clear_halt();
+            if (model_.bulk && stream_.has_begun())
+                stop_streaming();
+        }
         return {};
     case USB_REQ_SET_FEATURE:
         return {};
@@ -185,6 +236,7 @@ Reply Camera::set_interface(int interface, int alternate, Microseconds now)
     if (interface != kStreamInterface || alternate > alternates)
         return Reply::stall();
     stop_streaming();
+    stream_.clear_halt();
     if (alternate == 0)
         return {};
     if (const PlannedFault* fault = faults_.in_request(FaultKind::kRefuseInterface, 0, 0, 0)) {

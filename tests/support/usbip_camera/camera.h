@@ -41,15 +41,21 @@ public:
     void power_off();
     void take(Request request, Microseconds now);
     /// As VideoStream.
-    [[nodiscard]] std::optional<Microseconds> serve(Microseconds now) { return stream_.serve(now); }
-    std::optional<Microseconds> deadline() const { return stream_.deadline(); }
+    [[nodiscard]] std::optional<Microseconds> serve(Microseconds now);
+    std::optional<Microseconds> deadline() const;
 
     /// The answer to a control request; public for tests.
     Reply control(const std::array<std::uint8_t, 8>& setup, std::span<const std::uint8_t> out, Microseconds now);
 
 private:
     struct Setup;
-    void unlink(const Request& request);
+    struct EarlyUnlink
+    {
+        Request request;
+        Microseconds until; ///< then its transfer does not come any more
+    };
+    void unlink(const Request& request, Microseconds now);
+    bool was_unlinked(const Request& request);
     Reply standard(const Setup& setup, Microseconds now);
     Reply descriptor(const Setup& setup);
     Reply class_request(const Setup& setup, std::span<const std::uint8_t> out, Microseconds now);
@@ -65,6 +71,8 @@ private:
     VideoStream stream_;
     std::vector<Request> status_reads_; ///< on the status endpoint, which never has anything to say
     std::vector<Request> mute_;         ///< control requests that are left without an answer
+    std::vector<EarlyUnlink> early_;    ///< whose transfers have not come yet
+    std::uint32_t last_submitted_ = 0;  ///< sequence numbers ascend, over a replugging too
     int configuration_ = 0;
     int alternate_ = 0;
 };

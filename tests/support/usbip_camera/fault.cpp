@@ -33,6 +33,7 @@ constexpr Word kWords[] = {
     {"bad_header", FaultKind::kBadHeader, Place::kFrame, "packet=1 count=1 length=0"},
     {"wrong_fid", FaultKind::kWrongFid, Place::kFrame, "packet=1 count=1"},
     {"err", FaultKind::kErr, Place::kFrame, "packet=1 count=1"},
+    {"halt", FaultKind::kHalt, Place::kFrame, "packet=1 count=1"},
     {"stall", FaultKind::kStall, Place::kControl, "unit=-1 selector=-1 request=-1 times=1"},
     {"mute", FaultKind::kMute, Place::kControl, "unit=-1 selector=-1 request=-1 times=1"},
     {"short_reply", FaultKind::kShortReply, Place::kControl, "unit=-1 selector=-1 request=-1 times=1 bytes=0"},

@@ -28,6 +28,7 @@ enum class FaultKind
     kBadHeader,
     kWrongFid,
     kErr,
+    kHalt,
     // In a control request.
     kStall,
     kMute,

@@ -64,6 +64,8 @@ void FrameSender::append_head(Bytes& into, bool last, const DeviceTime& now) con
 
 Sent FrameSender::next(Bytes& into, std::size_t room, const DeviceTime& now)
 {
+    if (packet_fault(FaultKind::kHalt) != nullptr)
+        return {.halt = true};
     const std::size_t start = into.size();
     std::size_t data = std::min(room - kPayloadHeadBytes, frame_bytes_ - sent_bytes_);
     Sent sent;

@@ -23,6 +23,7 @@ struct Sent
     std::size_t bytes = 0; ///< appended: header and data
     int status = 0;        ///< 0; negative errno: lost on the way
     bool unplug = false;   ///< the cable goes here
+    bool halt = false;     ///< the endpoint halts here, for good
 };
 
 class FrameSender

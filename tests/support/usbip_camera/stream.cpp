@@ -1,6 +1,7 @@
 #include "stream.h"
 
 #include <algorithm>
+#include <cerrno>
 
 namespace dicot::usbip {
 
@@ -56,6 +57,9 @@ bool VideoStream::begin_frame(Microseconds now)
     if (!running_ || silent_)
         return false;
     std::vector<PlannedFault> faults = around_.faults.in_frame(streams_, frame_);
+    std::erase_if(faults, [&](const PlannedFault& fault) { // isochronous endpoints know no halt
+        return fault.kind == FaultKind::kHalt && packet_bytes_ > 0;
+    });
     Microseconds late = 0;
     for (const PlannedFault& fault : faults)
         if (fault.kind == FaultKind::kLate)
@@ -86,9 +90,9 @@ void VideoStream::end_frame()
     wake_ = due_;
 }
 
-void VideoStream::answer_front(std::span<const std::uint8_t> data, std::span<const IsoPacket> packets)
+void VideoStream::answer_front(int status, std::span<const std::uint8_t> data, std::span<const IsoPacket> packets)
 {
-    around_.answer(write_return(waiting_.front(), 0, data.size(), data, packets));
+    around_.answer(write_return(waiting_.front(), status, data.size(), data, packets));
     waiting_.pop_front();
 }
 
@@ -113,7 +117,7 @@ bool VideoStream::answer_iso(const Request& request, Microseconds now)
         if (sender_->done() && !unplug)
             end_frame();
     }
-    answer_front(data, packets);
+    answer_front(0, data, packets);
     idle_due_ = now + kIdle;
     return unplug;
 }
@@ -124,8 +128,10 @@ bool VideoStream::next_bulk_payload(Microseconds now)
     payload_.clear();
     payload_sent_ = 0;
     while (sender_ && payload_.empty()) {
-        payload_unplugs_ = sender_->next(payload_, agreement_.payload_bytes, device_time(now)).unplug;
-        if (payload_unplugs_)
+        const Sent sent = sender_->next(payload_, agreement_.payload_bytes, device_time(now));
+        payload_unplugs_ = sent.unplug;
+        halted_ = sent.halt;
+        if (sent.unplug || sent.halt)
             break;
         if (sender_->done())
             end_frame();
@@ -144,19 +150,21 @@ bool VideoStream::answer_bulk(const Request& request, Microseconds now)
     payload_sent_ += part;
     // A payload of the full size ends by its size alone; a shorter one has to end short.
     payload_open_ = !ends_short && !(payload_sent_ == payload_.size() && payload_.size() >= agreement_.payload_bytes);
-    answer_front(data, {});
+    answer_front(0, data, {});
     return payload_unplugs_ && !payload_open_;
 }
 
 std::optional<Microseconds> VideoStream::serve(Microseconds now)
 {
-    while (!waiting_.empty() && (sender_ || payload_open_ || begin_frame(now))) {
+    while (!waiting_.empty() && !halted_ && (sender_ || payload_open_ || begin_frame(now))) {
         const bool iso = !waiting_.front().packets.empty();
         if (iso ? answer_iso(waiting_.front(), now) : answer_bulk(waiting_.front(), now))
             return away_;
     }
+    while (!waiting_.empty() && halted_)
+        answer_front(-EPIPE, {}, {});
     if (!waiting_.empty() && !waiting_.front().packets.empty() && now >= idle_due_) {
-        answer_front({}, waiting_.front().packets);
+        answer_front(0, {}, waiting_.front().packets);
         idle_due_ = now + kIdle;
     }
     return std::nullopt;

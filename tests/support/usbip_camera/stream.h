@@ -42,8 +42,10 @@ public:
     void stop();
     /// Whether anything of the present stream has gone out.
     bool has_begun() const { return running_ && (frame_ > 0 || sender_.has_value() || payload_open_); }
-    /// Ends a hang, as a reset does.
-    void reset() { hung_ = false; }
+    /// Ends a hang and a halt, as a reset does.
+    void reset() { hung_ = halted_ = false; }
+    /// What CLEAR_FEATURE and SET_INTERFACE do to the endpoint.
+    void clear_halt() { halted_ = false; }
     std::uint64_t streams() const { return streams_; } ///< started so far
 
     void submit(Request request) { waiting_.push_back(std::move(request)); }
@@ -62,13 +64,14 @@ private:
     bool answer_bulk(const Request& request, Microseconds now);
     bool next_bulk_payload(Microseconds now);
     void end_frame();
-    void answer_front(std::span<const std::uint8_t> data, std::span<const IsoPacket> packets);
+    void answer_front(int status, std::span<const std::uint8_t> data, std::span<const IsoPacket> packets);
 
     Surroundings around_;
     std::deque<Request> waiting_;
     bool running_ = false;
     bool silent_ = false;
     bool hung_ = false;     ///< silent over the end of the stream
+    bool halted_ = false;   ///< bulk: every transfer is refused
     Microseconds away_ = 0; ///< how long an unplugging of the present frame lasts
     bool frame_id_ = false;
     Agreement agreement_;

@@ -11,14 +11,14 @@ start() { # words for both cameras, beginning with a comma; words for the progra
     usbip_camera --commands $commands --camera "name=left,frames=/frames/left,serial=L1$words" \
         --camera "name=right,frames=/frames/right,serial=R1$words" "$@" >>$log 2>&1 &
     camera_pid=$!
-    await 20 both_there || failed start "the cameras$words did not appear"
+    await 60 both_there || failed start "the cameras$words did not appear"
 }
 both_there() { node left >/dev/null && node right >/dev/null; }
 
 finish() {
     echo "all now quit" >$commands
     wait $camera_pid
-    await 20 none_there || failed finish "the cameras did not disappear"
+    await 60 none_there || failed finish "the cameras did not disappear"
 }
 none_there() { ! node left && ! node right; }
 
@@ -26,8 +26,8 @@ none_there() { ! node left && ! node right; }
 say() {
     for line; do
         taken=$(grep -cF "command: taken: $line" $log)
-        timeout 5 sh -c "echo '$line' >$commands" || return
-        await 15 more_than "$taken" "command: taken: $line" || return
+        timeout 30 sh -c "echo '$line' >$commands" || return
+        await 60 more_than "$taken" "command: taken: $line" || return
     done
 }
 more_than() { [ "$(grep -cF "$2" $log)" -gt "$1" ]; }
