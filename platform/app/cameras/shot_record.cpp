@@ -4,9 +4,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <utility>
 
 namespace dicot::app {
 namespace {
@@ -15,7 +17,7 @@ using nlohmann::json;
 
 constexpr double kMostSaturated = 0.02;    ///< of the pixels
 constexpr double kMostLumaDifference = 16; ///< levels between the means of both pictures
-constexpr double kDarkLuma = 20;          ///< levels
+constexpr double kDarkLuma = 20;           ///< levels
 
 std::string formatted(std::int64_t us, const char* format)
 {
@@ -223,6 +225,9 @@ std::vector<std::string> shot_warnings(RigStream& rig, const ShotFigures& figure
         warnings.emplace_back(text);
     }
     const StereoFigures& cameras = rig.cameras().figures();
+    for (const auto& [side, ladder] : {std::pair{"left", &cameras.left.ladder}, {"right", &cameras.right.ladder}})
+        if (ladder->gave_up)
+            warnings.push_back(std::string("the ") + side + " camera stopped and did not come back");
     if (!cameras.left.settled || !cameras.right.settled)
         warnings.emplace_back("the brightness did not become steady within exposure.warm_up_s");
     if (cameras.lock && cameras.lock->differing() > 0) {
