@@ -207,8 +207,8 @@ TEST_F(Recorded, AnInterruptLeavesNothing)
 {
     const std::string out = folder_->path("interrupted");
     const ToolRun run = test::run(
-        "timeout --preserve-status -s INT 0.6 " + std::string{DICOT_PROGRAM} + " snap" +
-        config("replay_script = \"dark 1000\"", "[exposure]\nwarm_up_s = 120\n[burst]\nframes = 64\n") + "-o " + out);
+        "timeout --preserve-status -s INT 0.3 " + std::string{DICOT_PROGRAM} + " snap" +
+        config("replay_script = \"dark 500\"", "[exposure]\nwarm_up_s = 120\n[burst]\nframes = 64\n") + "-o " + out);
     if (run.exit_code == 0)
         GTEST_SKIP() << "this computer had taken the snapshot before it could be interrupted";
     EXPECT_EQ(run.exit_code, 75) << run.output;
