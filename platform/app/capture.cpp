@@ -4,6 +4,7 @@
 #include "config_words.h"
 #include "output_folder.h"
 #include "sealed_heap.h"
+#include "stop_request.h"
 #include "take_picture.h"
 
 #include "dicot/os/memory_block.h"
@@ -13,8 +14,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 
 namespace dicot::app {
@@ -44,13 +47,27 @@ PairNames names_of(const Words& words, int pair)
     return {words.folder + "/left" + number + ".png", words.folder + "/right" + number + ".png"};
 }
 
+/// A record of a miss is nothing that anybody wants to keep.
+bool is_a_miss(const std::string& path)
+{
+    std::ifstream file(path);
+    const nlohmann::json record = nlohmann::json::parse(file, nullptr, false);
+    return record.is_object() && record.value("outcome", nlohmann::json()) == "missed";
+}
+
 Status check_folder(const Words& words)
 {
     TRY(make_folder(words.folder));
+    const std::string record = words.folder + "/record.json";
+    OutputFile can_be_written;
+    TRY(can_be_written.open(record.c_str()));
+    std::error_code error;
+    if (std::filesystem::exists(record, error) && !is_a_miss(record))
+        return failure(Fault::kCannotCreate, "%s is there already: name another folder with -o", record.c_str());
     for (int pair = 0; pair < words.pairs; ++pair) {
         const PairNames names = names_of(words, pair);
-        for (const std::string& name : {names.left, names.right, words.folder + "/record.json"})
-            if (std::filesystem::exists(name))
+        for (const std::string& name : {names.left, names.right})
+            if (std::filesystem::exists(name, error) || error)
                 return failure(Fault::kCannotCreate, "%s is there already: name another folder with -o", name.c_str());
     }
     return {};
@@ -74,10 +91,13 @@ Status take_pairs(const Words& words, Shot& shot, MemoryBlock& memory, nlohmann:
             TRY(write_png(names.right.c_str(), right));
         }
         nlohmann::json record = shot_record(shot.figures());
+        record["warnings"] = shot_warnings(shot.rig(), shot.figures());
+        for (const std::string& warning : shot_warnings(shot.rig(), shot.figures()))
+            if (std::ranges::find(warnings, warning) == warnings.end())
+                warnings.push_back(warning);
         record["left"] = std::filesystem::path(names.left).filename().string();
         record["right"] = std::filesystem::path(names.right).filename().string();
         pairs.push_back(record);
-        warnings = shot_warnings(shot.rig(), shot.figures());
         if (!words.json)
             std::printf("%s, %s: skew %.1f ms, %d of %d pairs used\n", names.left.c_str(), names.right.c_str(),
                         static_cast<double>(shot.figures().burst.skew_us) / 1000, shot.figures().burst.used,
@@ -89,8 +109,9 @@ Status take_pairs(const Words& words, Shot& shot, MemoryBlock& memory, nlohmann:
 Status run(const Words& words)
 {
     const LoadedConfig loaded = TRY(words.config.load());
-    TRY(check_folder(words));
+    const StopRequest stop;
     RigStream rig = TRY(RigStream::open(loaded.config, Pace::kAtOnce));
+    TRY(check_folder(words));
     Arena measure;
     (void)take_picture<Rgb8>(measure, rig.width(), rig.height());
     (void)take_picture<Rgb8>(measure, rig.width(), rig.height());
@@ -109,7 +130,7 @@ Status run(const Words& words)
                              {"pairs", pairs},
                              {"warnings", warnings},
                              {"peak_memory_bytes", TRY(process_memory()).peak_bytes}};
-    const std::string text = record.dump(2) + "\n";
+    const std::string text = record.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
     OutputFile file;
     TRY(file.open((words.folder + "/record.json").c_str()));
     TRY(file.write(text.data(), text.size()));

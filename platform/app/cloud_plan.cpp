@@ -13,7 +13,9 @@ Result<WorkingRange> range_of(const CloudWords& words, const RigFile& rig)
     const std::optional<double> far_mm = words.far_mm ? words.far_mm : rig.far_mm;
     if (!near_mm || !far_mm)
         return failure(Fault::kUsage,
-                       "%s names no working range: give --near-mm and --far-mm, or add near_mm and far_mm to it",
+                       "%s names no working range: add near_mm and far_mm to it, or give them for this run (--near-mm "
+                       "and --far-mm; "
+                       "rig.near_mm and rig.far_mm in the configuration)",
                        words.rig.c_str());
     return WorkingRange{*near_mm, *far_mm};
 }

@@ -56,7 +56,9 @@ int main(int argc, char** argv)
             return program.exit(error);
         return misused(program, error);
     }
-    const Status status = chosen();
+    Status status = chosen();
+    if (status.ok() && (std::fflush(stdout) != 0 || std::ferror(stdout) != 0))
+        status = failure(Fault::kIoError, "standard output cannot be written: the disk is full, or its reader is gone");
     if (!status.ok())
         std::fprintf(stderr, "dicot: %s\n", status.message());
     return status.exit_code();

@@ -7,8 +7,8 @@
 
 namespace dicot::app {
 
-/// What is written goes to a hidden folder beside the target; commit() renames it. Let go without commit(), it and its
-/// files are removed.
+/// What is written goes to a hidden folder beside the target; commit() syncs and renames it. Let go without commit(),
+/// it and its files are removed.
 class PartFolder
 {
 public:
@@ -17,11 +17,12 @@ public:
     PartFolder& operator=(const PartFolder&) = delete;
     ~PartFolder();
 
-    /// `around` is made if it is missing. A name that is taken gets "_2", "_3" and so on. Fault::kCannotCreate.
+    /// `around` is made if it is missing. Fault::kCannotCreate.
     Status open(const std::string& around, const std::string& name);
     const std::string& path() const noexcept { return part_; } ///< where to write
+    /// Where it will stand, or stands. A name that is taken gets "_2", "_3" and so on when it is committed.
     const std::string& target() const noexcept { return target_; }
-    /// Fault::kIoError.
+    /// Never replaces anything. Fault::kIoError.
     Status commit();
 
 private:

@@ -93,7 +93,7 @@ Status run(const Words& words)
     if (words.json) {
         nlohmann::json report = cloud_report(*work, words.work.match.method, memory.peak_bytes);
         report["output"] = words.cloud;
-        std::printf("%s\n", report.dump(2).c_str());
+        std::printf("%s\n", report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     } else {
         print_cloud_report(*work, words.cloud, memory.peak_bytes);
     }

@@ -6,6 +6,7 @@
 #include "config_words.h"
 #include "part_folder.h"
 #include "sealed_heap.h"
+#include "stop_request.h"
 
 #include "dicot/os/output_file.h"
 #include "dicot/os/process_memory.h"
@@ -60,9 +61,15 @@ struct Snapshot
     std::uint64_t peak_bytes = 0;
 };
 
+/// Paths and names may hold bytes that are no UTF-8.
+std::string words_of(const nlohmann::json& record)
+{
+    return record.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 Status write_record(const nlohmann::json& record, const std::string& folder)
 {
-    const std::string text = record.dump(2) + "\n";
+    const std::string text = words_of(record) + "\n";
     OutputFile file;
     TRY(file.open((folder + "/record.json").c_str()));
     TRY(file.write(text.data(), text.size()));
@@ -92,12 +99,14 @@ Status shoot(const Words& words, const Config& config, const std::string& folder
         }();
     }
     snapshot.record["cameras"] = cameras_record(rig);
+    if (shot.figures().burst.used > 0) {
+        snapshot.record["shot"] = shot_record(shot.figures());
+        snapshot.warnings = shot_warnings(rig, shot.figures());
+    }
     TRY(status);
     snapshot.peak_bytes = TRY(process_memory()).peak_bytes;
-    snapshot.record["shot"] = shot_record(shot.figures());
     snapshot.record["cloud"] = cloud_report(*work, cloud.match.method, snapshot.peak_bytes);
     snapshot.record["calibration_id"] = plan.meta.calibration_id.c_str();
-    snapshot.warnings = shot_warnings(rig, shot.figures());
     return {};
 }
 
@@ -113,6 +122,15 @@ void print(const nlohmann::json& record, const std::string& folder)
     std::printf("capture %.2f s, rectify %.3f s, match %.3f s, triangulate %.3f s, encode and verify %.3f s\n",
                 times["read"].get<double>(), times["rectify"].get<double>(), times["match"].get<double>(),
                 times["triangulate"].get<double>(), times["encode"].get<double>());
+}
+
+/// Names files by where they would have been.
+std::string reason_of(const Status& status, const PartFolder& folder)
+{
+    std::string reason = status.message();
+    if (const std::size_t at = reason.find(folder.path()); at != std::string::npos)
+        reason.replace(at, folder.path().size(), folder.target());
+    return reason;
 }
 
 Status run(const Words& words)
@@ -131,14 +149,17 @@ Status run(const Words& words)
     TRY(folder.open(around, utc_stamp(began_us)));
     Snapshot snapshot;
     snapshot.record = {{"format", kRecordFormat}, {"software", "dicot " DICOT_VERSION}, {"time", utc_words(began_us)}};
+    const StopRequest stop;
     const Status status = shoot(words, config, folder.path(), snapshot);
-    if (status.fault() == Fault::kConfig || status.fault() == Fault::kUsage) // nothing was tried
+    const bool tried = status.fault() != Fault::kConfig && status.fault() != Fault::kUsage;
+    if (!tried || (!status.ok() && StopRequest::asked()))
         return status;
+    const std::string reason = reason_of(status, folder);
     snapshot.record["source"] = is_drawn                                     ? "drawn pictures"
                                 : config.cameras.left.by == BoundBy::kReplay ? "recorded pictures"
                                                                              : "cameras";
     snapshot.record["outcome"] = status.ok() ? "done" : "missed";
-    snapshot.record["reason"] = status.ok() ? nlohmann::json() : nlohmann::json(status.message());
+    snapshot.record["reason"] = status.ok() ? nlohmann::json() : nlohmann::json(reason);
     snapshot.record["warnings"] = snapshot.warnings;
     TRY(write_record(snapshot.record, folder.path()));
     TRY(folder.commit());
@@ -146,13 +167,13 @@ Status run(const Words& words)
         std::fprintf(stderr, "dicot: %s: %s\n", folder.target().c_str(), warning.c_str());
     if (words.json) {
         snapshot.record["folder"] = folder.target();
-        std::printf("%s\n", snapshot.record.dump(2).c_str());
+        std::printf("%s\n", words_of(snapshot.record).c_str());
     } else if (status.ok()) {
         print(snapshot.record, folder.target());
     } else {
         std::fprintf(stderr, "dicot: the miss is recorded in %s/record.json\n", folder.target().c_str());
     }
-    return status;
+    return status.ok() ? status : failure(status.fault(), "%s", reason.c_str());
 }
 
 } // namespace

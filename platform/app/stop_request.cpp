@@ -3,6 +3,8 @@
 namespace dicot::app {
 namespace {
 
+constexpr std::array kHeard{SIGINT, SIGTERM, SIGHUP, SIGPIPE};
+
 volatile sig_atomic_t asked_to_stop = 0;
 
 void note(int) noexcept
@@ -12,23 +14,24 @@ void note(int) noexcept
 
 } // namespace
 
-StopRequest::StopRequest() noexcept
+StopRequest::StopRequest() noexcept : before_{}
 {
     asked_to_stop = 0;
-    struct sigaction action
-    {
-    };
-    action.sa_handler = note;
-    sigemptyset(&action.sa_mask);
-    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
-    (void)::sigaction(SIGINT, &action, &interrupt_);
-    (void)::sigaction(SIGTERM, &action, &terminate_);
+    for (std::size_t i = 0; i < kSignals; ++i) {
+        struct sigaction action
+        {
+        };
+        sigemptyset(&action.sa_mask);
+        action.sa_handler = kHeard[i] == SIGPIPE ? SIG_IGN : note;
+        action.sa_flags = kHeard[i] == SIGPIPE ? 0 : static_cast<int>(SA_RESETHAND | SA_RESTART);
+        (void)::sigaction(kHeard[i], &action, &before_[i]);
+    }
 }
 
 StopRequest::~StopRequest()
 {
-    (void)::sigaction(SIGINT, &interrupt_, nullptr);
-    (void)::sigaction(SIGTERM, &terminate_, nullptr);
+    for (std::size_t i = 0; i < kSignals; ++i)
+        (void)::sigaction(kHeard[i], &before_[i], nullptr);
 }
 
 bool StopRequest::asked() noexcept

@@ -12,7 +12,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dicot::aiming {
@@ -135,6 +137,61 @@ TEST(Aiming, SwappedPairsAreNamedAndNoOtherIs)
     EXPECT_GE(known * 100, pairs * 90);
     EXPECT_GE(named_swapped * 100, pairs * 90);
     verdicts(data / "rig-dev/calibration"); // boards before a far wall: mostly not known, never wrong
+}
+
+/// As a dim lamp and a noisy sensor leave it.
+void darken(Grey& grey, unsigned seed)
+{
+    std::mt19937 random{seed};
+    for (std::uint8_t& pixel : grey.pixels)
+        pixel = static_cast<std::uint8_t>(pixel / 16 + random() % 7);
+}
+
+/// Three means over 5 x 1, then over 1 x 5 pixels: a sigma of about 2.4 px.
+void blur(Grey& grey)
+{
+    for (int pass = 0; pass < 6; ++pass) {
+        const int step = pass < 3 ? 1 : grey.width;
+        std::vector<std::uint8_t> mean = grey.pixels;
+        for (std::size_t i = 2 * static_cast<std::size_t>(step); i + 2 * static_cast<std::size_t>(step) < mean.size();
+             ++i) {
+            int sum = 0;
+            for (int k = -2; k <= 2; ++k)
+                sum += grey.pixels[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + k * step)];
+            mean[i] = static_cast<std::uint8_t>((sum + 2) / 5);
+        }
+        grey.pixels = std::move(mean);
+    }
+}
+
+TEST(Aiming, NoWorsePictureIsTakenForTheWrongOrder)
+{
+    const fs::path data{DICOT_DATA_DIR};
+    if (!present("Aiming.NoWorsePictureIsTakenForTheWrongOrder", data / "rig-dev"))
+        return;
+    Counts dark, blurred, same;
+    for (const char* set : {"middlebury-v2", "rig-dev/plants", "rig-dev/box", "calibration-opencv"})
+        for (const fs::path& file : lefts_below(data / set)) {
+            if (!fs::exists(right_of(file)))
+                continue;
+            Grey left(file), right(right_of(file));
+            same.add(compare(left, left).order);
+            Grey dim_left = left, dim_right = right;
+            darken(dim_left, 1);
+            darken(dim_right, 2);
+            dark.add(compare(dim_left, dim_right).order);
+            EXPECT_NE(compare(dim_right, dim_left).order, Order::kAsNamed) << file;
+            blur(left);
+            blur(right);
+            blurred.add(compare(left, right).order);
+            EXPECT_NE(compare(right, left).order, Order::kAsNamed) << file;
+        }
+    dark.print("dark and noisy");
+    blurred.print("blurred");
+    same.print("left twice");
+    EXPECT_EQ(dark.swapped + blurred.swapped, 0);
+    EXPECT_EQ(same.not_known, same.pairs);
+    EXPECT_GE(blurred.as_named * 100, blurred.pairs * 85);
 }
 
 TEST(Aiming, TheRenderedRigsRollIsMeasured)

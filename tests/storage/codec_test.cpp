@@ -185,7 +185,7 @@ TEST(Codec, SenselessCloudsAreRefused)
     const std::vector<CloudPoint> none;
     const Result<EncodedCloud> empty = encode_cloud({none, grid_of(14)}, {}, heap);
     EXPECT_EQ(empty.status().fault(), Fault::kBadData);
-    EXPECT_NE(std::strstr(empty.status().message(), "--near-mm"), nullptr);
+    EXPECT_NE(std::strstr(empty.status().message(), "near_mm"), nullptr);
     const std::vector<CloudPoint> outside{{0, 0, 5000 + (1 << 14), {}, 0}};
     EXPECT_EQ(encode_cloud({outside, grid_of(14)}, {}, heap).status().fault(), Fault::kSoftware);
     const std::vector<CloudPoint> many(kMaxCloudPoints + 1);

@@ -139,7 +139,7 @@ TEST_F(Recorded, SeveralPairsAreNumberedAndNeverWrittenOver)
     EXPECT_EQ(record["pairs"][2]["left"], "left003.png");
     const ToolRun again = dicot(words);
     EXPECT_EQ(again.exit_code, 73);
-    EXPECT_THAT(again.output, HasSubstr("left001.png is there already"));
+    EXPECT_THAT(again.output, HasSubstr("record.json is there already"));
 }
 
 struct Miss
@@ -152,7 +152,7 @@ TEST_F(Recorded, AMissIsRecordedWithItsReason)
 {
     int number = 0;
     for (const Miss& miss :
-         {Miss{"hang 50", "given up after 2 restarts, 2 reopens and 1 port resets"},
+         {Miss{"hang 30", "given up after 2 restarts, 2 reopens and 1 port resets"},
           Miss{"gone 3", "is gone; check its plug and cable"},
           Miss{"skew_us 12000", "8 began more than 10000 us apart"}, Miss{"full 100", "no bandwidth left"}}) {
         const std::string out = folder_->path("miss" + std::to_string(number++));
@@ -170,10 +170,55 @@ TEST_F(Recorded, AMissIsRecordedWithItsReason)
     }
 }
 
+TEST_F(Recorded, ACameraThatDiesLateLeavesASnapshotWithAWarning)
+{
+    const ToolRun run =
+        dicot("snap --json" + config("replay_script_right = \"hang 50\"") + "-o " + folder_->path("late"));
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    EXPECT_LT(json_in(run.output)["shot"]["pairs_used"].get<int>(), 8);
+    EXPECT_THAT(run.output, HasSubstr("the right camera stopped and did not come back"));
+}
+
+TEST_F(Recorded, ARecordOfAMissMayBeReplacedByPictures)
+{
+    const std::string out = "-o " + folder_->path("again");
+    EXPECT_EQ(dicot("capture" + config("replay_script_right = \"hang 30\"") + out).exit_code, 69);
+    EXPECT_EQ(json_file(folder_->path("again/record.json"))["outcome"], "missed");
+    const ToolRun run = dicot("capture" + config() + out);
+    EXPECT_EQ(run.exit_code, 0) << run.output;
+    EXPECT_EQ(json_file(folder_->path("again/record.json"))["outcome"], "done");
+}
+
+TEST_F(Recorded, NamesThatAreNoTextAreNoReasonToStop)
+{
+    const ToolRun run = dicot("snap --json" + config() + "-o '" + folder_->path("x\xFF") + "'");
+    EXPECT_EQ(run.exit_code, 0) << run.output;
+}
+
+TEST_F(Recorded, SnapshotsOfOneSecondKeepEachOther)
+{
+    const std::string words =
+        std::string{DICOT_PROGRAM} + " snap" + config() + "-o " + folder_->path("together") + " >/dev/null & ";
+    EXPECT_EQ(test::run(words + words + words + "wait").exit_code, 0);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_->path("together")), {}), 3);
+}
+
+TEST_F(Recorded, AnInterruptLeavesNothing)
+{
+    const std::string out = folder_->path("interrupted");
+    const ToolRun run = test::run(
+        "timeout --preserve-status -s INT 0.3 " + std::string{DICOT_PROGRAM} + " snap" +
+        config("replay_script = \"dark 500\"", "[exposure]\nwarm_up_s = 120\n[burst]\nframes = 64\n") + "-o " + out);
+    if (run.exit_code == 0)
+        GTEST_SKIP() << "this computer had taken the snapshot before it could be interrupted";
+    EXPECT_EQ(run.exit_code, 75) << run.output;
+    EXPECT_TRUE(fs::is_empty(out));
+}
+
 TEST_F(Recorded, ACameraThatRecoversMakesASnapshotThatSaysSo)
 {
     const ToolRun run =
-        dicot("snap --json" + config("replay_script_left = \"hang 60 port\"") + "-o " + folder_->path("shaken"));
+        dicot("snap --json" + config("replay_script_left = \"hang 30 port\"") + "-o " + folder_->path("shaken"));
     ASSERT_EQ(run.exit_code, 0) << run.output;
     const json ladder = json_in(run.output)["cameras"]["left"]["ladder"];
     EXPECT_EQ(ladder["recoveries"], 1);

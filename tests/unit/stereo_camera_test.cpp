@@ -63,6 +63,8 @@ public:
 
     StereoCamera make() { return StereoCamera(left_, right_, rules_); }
     std::int64_t now_us() const { return now_us_; }
+    void pass_us(std::int64_t us) { now_us_ += us; }
+    Camera& right() { return right_; }
 
     int at_once = 1;   ///< plans
     int all_plans = 2; ///< with those of one after the other
@@ -137,11 +139,98 @@ TEST(StereoCamera, OneAfterTheOtherMayBeForbidden)
 {
     StereoRules rules;
     rules.one_after_the_other = false;
-    Rig rig("", "full 1", rules);
+    Rig full("", "full 100", rules);
+    StereoCamera cameras = full.make();
+    const Status status = cameras.start(full);
+    EXPECT_EQ(status.fault(), Fault::kUnavailable);
+    EXPECT_THAT(status.message(), HasSubstr("no bandwidth left"));
+    Rig never_at_once("", "", rules);
+    never_at_once.at_once = 0;
+    StereoCamera others = never_at_once.make();
+    EXPECT_THAT(others.start(never_at_once).message(), HasSubstr("may not stream one after the other, and plan 0"));
+}
+
+TEST(StereoCamera, ASilentCameraIsShakenAlsoWhereOneAfterTheOtherIsForbidden)
+{
+    StereoRules rules;
+    rules.one_after_the_other = false;
+    Rig rig("", "hang 0 reopen", rules);
     StereoCamera cameras = rig.make();
     const Status status = cameras.start(rig);
-    EXPECT_EQ(status.fault(), Fault::kUnavailable);
-    EXPECT_THAT(status.message(), HasSubstr("one after the other"));
+    EXPECT_TRUE(status.ok()) << status.message();
+    EXPECT_EQ(cameras.figures().right.ladder.recoveries, 1U);
+    EXPECT_FALSE(cameras.one_at_a_time());
+}
+
+TEST(StereoCamera, AnEndThatIsAskedForComesSoon)
+{
+    static bool asked;
+    asked = false;
+    StereoRules rules;
+    rules.stop_asked = []() noexcept { return asked; };
+    Rig rig("", "", rules);
+    StereoCamera cameras = rig.make();
+    ASSERT_TRUE(cameras.start(rig).ok());
+    ASSERT_TRUE(cameras.next().ok());
+    asked = true;
+    EXPECT_EQ(cameras.warm_up().fault(), Fault::kTryAgain);
+    EXPECT_EQ(cameras.start(rig).fault(), Fault::kTryAgain);
+    EXPECT_LT(rig.now_us(), 3'000'000);
+}
+
+TEST(StereoCamera, APhaseOfTheWarmUpThatGaveUpIsNotForgotten)
+{
+    StereoRules rules;
+    rules.settling.most_us = 1'000'000;
+    Rig rig("dark 45", "dark 45", rules); // brightens for 1.5 s
+    StereoCamera cameras = rig.make();
+    ASSERT_TRUE(cameras.start(rig).ok());
+    ASSERT_TRUE(cameras.warm_up().ok());
+    EXPECT_FALSE(cameras.figures().left.settled);
+    EXPECT_EQ(cameras.figures().left.settling.state, SettlingState::kSettled);
+}
+
+TEST(StereoCamera, WithoutALockTheCamerasAreMadeAutomaticAllTheSame)
+{
+    constexpr const char* kManual = "control exposure_auto 1 8 1 1; control focus_auto 0 1 1 1";
+    StereoRules rules;
+    rules.lock_exposure = false;
+    Rig rig(kManual, kManual, rules);
+    StereoCamera cameras = rig.make();
+    ASSERT_TRUE(cameras.start(rig).ok());
+    ASSERT_TRUE(cameras.warm_up().ok());
+    EXPECT_EQ(rig.right().get(ControlId::kExposureAuto).value(), 8);
+    EXPECT_EQ(rig.right().get(ControlId::kFocusAuto).value(), 0);
+    EXPECT_FALSE(cameras.figures().lock.has_value());
+}
+
+TEST(StereoCamera, EachFrameIsUsedOnce)
+{
+    Rig rig("", "skew_us 3000");
+    StereoCamera cameras = rig.make();
+    ASSERT_TRUE(cameras.start(rig).ok());
+    std::uint32_t last = 0;
+    for (int k = 0; k < 10; ++k) {
+        const Result<StereoFrames> pair = cameras.next();
+        ASSERT_TRUE(pair.ok());
+        if (k > 0) {
+            EXPECT_EQ(pair.value().left->sequence, last + 1);
+        }
+        last = pair.value().left->sequence;
+    }
+}
+
+TEST(StereoCamera, WhatWasBeforeCanBePassedOver)
+{
+    Rig rig("", "");
+    StereoCamera cameras = rig.make();
+    ASSERT_TRUE(cameras.start(rig).ok());
+    ASSERT_TRUE(cameras.next().ok());
+    rig.pass_us(500'000);
+    cameras.skip_to_now();
+    const Result<StereoFrames> pair = cameras.next();
+    ASSERT_TRUE(pair.ok());
+    EXPECT_GE(pair.value().left->start_us, 500'000);
 }
 
 TEST(StereoCamera, WhereNoPlanAsksForLessTheLadderIsTried)
@@ -170,7 +259,7 @@ TEST_P(StereoLadder, ACameraThatStopsIsShakenUntilItDelivers)
     StereoCamera cameras = rig.make();
     ASSERT_TRUE(cameras.start(rig).ok());
     ASSERT_TRUE(cameras.warm_up().ok());
-    for (int k = 0; k < 40; ++k) {
+    for (int k = 0; k < 90; ++k) {
         const Result<StereoFrames> pair = cameras.next();
         ASSERT_TRUE(pair.ok()) << pair.status().message();
         EXPECT_EQ(pair.value().skew_us, 0);
@@ -235,7 +324,7 @@ TEST(StereoCamera, TheRightCameraGetsTheExposureOfTheLeftOneAndKeepsItWhenOpened
             EXPECT_EQ(one.other.value, 17);
         }
     }
-    for (int k = 0; k < 100; ++k)
+    for (int k = 0; k < 160; ++k)
         ASSERT_TRUE(cameras.next().ok());
     EXPECT_EQ(cameras.figures().right.ladder.recoveries, 1U);
 }
@@ -316,6 +405,20 @@ TEST(Burst, PairsBeyondTheSkewAreAMissWithFigures)
     EXPECT_EQ(figures.status().fault(), Fault::kUnavailable);
     EXPECT_THAT(figures.status().message(),
                 HasSubstr("of 4 pairs 4 began more than 10000 us apart (the nearest 15000 us)"));
+}
+
+TEST(Burst, ACameraThatDiesLateLeavesThePairsBeforeIt)
+{
+    Rig rig("", "gone 12");
+    StereoCamera cameras = rig.make();
+    ASSERT_TRUE(cameras.start(rig).ok());
+    Taking taking({.pairs = 30});
+    const Result<BurstFigures> figures = taking.take(cameras);
+    ASSERT_TRUE(figures.ok()) << figures.status().message();
+    EXPECT_GT(figures.value().used, 3);
+    EXPECT_LT(figures.value().used, 12);
+    EXPECT_TRUE(cameras.figures().right.ladder.gave_up);
+    EXPECT_FALSE(taking.take(cameras).ok());
 }
 
 TEST(Burst, CapturingTakesNothingFromTheHeap)

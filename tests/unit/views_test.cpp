@@ -172,13 +172,31 @@ TEST_F(TwoViews, RefusalsNameTheSizes)
 TEST_F(TwoViews, TheSmallestAndOddSizesAreHeld)
 {
     const Picture one = left(), other = right({});
-    for (const auto& [width, height] : {std::pair{96, 96}, {97, 101}, {199, 96}, {641 - 2, 479}}) {
+    struct Size
+    {
+        int width, height;
+    };
+    for (const Size& size : {Size{96, 96}, Size{97, 101}, Size{199, 96}, Size{639, 479}}) {
         const auto cut = [&](const Picture& picture) {
-            return ImageView<const std::uint8_t>{picture.pixels.data(), width, height, kWidth};
+            return ImageView<const std::uint8_t>{picture.pixels.data(), size.width, size.height, kWidth};
         };
         const Result<Views> views = compare(cut(one), cut(other));
         ASSERT_TRUE(views.ok()) << views.status().message();
-        EXPECT_NE(views.value().order, Order::kSwapped) << width << " x " << height;
+        EXPECT_NE(views.value().order, Order::kSwapped) << size.width << " x " << size.height;
+    }
+}
+
+TEST_F(TwoViews, StripsAreHeld)
+{
+    std::mt19937 random{kSeed};
+    std::vector<std::uint8_t> noise(std::size_t{kMinViewSide} * kMaxViewSide);
+    for (std::uint8_t& pixel : noise)
+        pixel = static_cast<std::uint8_t>(random());
+    for (const auto& strip : {ImageView<const std::uint8_t>{noise.data(), kMinViewSide, kMaxViewSide},
+                              ImageView<const std::uint8_t>{noise.data(), kMaxViewSide, kMinViewSide}}) {
+        const Result<Views> views = compare(strip, strip);
+        ASSERT_TRUE(views.ok()) << views.status().message();
+        EXPECT_NE(views.value().order, Order::kSwapped);
     }
 }
 

@@ -22,7 +22,8 @@ Levels make_levels(Grey picture, Arena& arena)
     Levels levels;
     levels.level[0] = picture;
     levels.count = 1;
-    while (levels.smallest().width >= Levels::kSmallestBelow && levels.count < Levels::kMost) {
+    while ((levels.smallest().width >= Levels::kNarrowerThan || levels.smallest().height >= Levels::kLowerThan) &&
+           levels.count < Levels::kMost) {
         const Grey from = levels.smallest();
         const int width = from.width / 2, height = from.height / 2;
         const auto pixels =

@@ -15,7 +15,8 @@ using Grey = ImageView<const std::uint8_t>;
 struct Levels
 {
     static constexpr int kMost = 6;
-    static constexpr int kSmallestBelow = 100; ///< px, the width of the last level
+    /// The last level is narrower and lower than this, px: it bounds the work, whatever the picture's shape.
+    static constexpr int kNarrowerThan = 100, kLowerThan = 200;
 
     std::array<Grey, kMost> level; ///< [0] is the picture itself, borrowed
     int count = 0;

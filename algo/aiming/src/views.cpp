@@ -28,7 +28,7 @@ Bench lay_out(Grey left, Grey right, Arena& arena)
     return bench;
 }
 
-/// Degrees of a small slope; the series is exact to 0.001 degrees up to 10 degrees.
+/// Degrees of a small slope; the series is exact to 0.002 degrees up to 10 degrees.
 double degrees(double slope)
 {
     constexpr double kDegrees = 57.295779513082320877;

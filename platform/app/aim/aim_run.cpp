@@ -88,6 +88,8 @@ public:
         const Status stopped = stream_.stop();
         if (!looked.ok() && looked.fault() == Fault::kIoError)
             return looked; // nobody reads a summary
+        if (now_.pairs > 0)
+            tell_time(); // a camera that died has taken its time
         TRY(screen_.end(now_));
         return looked.ok() ? stopped : looked;
     }
@@ -96,16 +98,18 @@ private:
     Status look(double seconds)
     {
         TRY(stream_.start());
-        const std::int64_t begun_us = stream_.now_us();
-        std::int64_t due_us = begun_us;
+        TRY(stream_.cameras().let_converge());
+        begun_us_ = stream_.now_us();
+        std::int64_t due_us = begun_us_;
         for (;;) {
-            const std::int64_t now_us = stream_.now_us();
-            now_.elapsed_s = static_cast<double>(now_us - begun_us) * 1e-6;
+            tell_time();
             if (StopRequest::asked() || (seconds > 0 && now_.elapsed_s >= seconds))
                 return {};
-            const LivePair pair = TRY(stream_.next(table_.left_colour, table_.right_colour));
+            const Result<LivePair> pair = stream_.next(table_.left_colour, table_.right_colour);
+            if (!pair.ok())
+                return StopRequest::asked() ? Status{} : pair.status();
             ++now_.pairs;
-            now_.skew_us = pair.skew_us;
+            now_.skew_us = pair.value().skew_us;
             count_frames();
             if (stream_.now_us() < due_us)
                 continue;
@@ -114,6 +118,8 @@ private:
             TRY(screen_.show(now_));
         }
     }
+
+    void tell_time() { now_.elapsed_s = static_cast<double>(stream_.now_us() - begun_us_) * 1e-6; }
 
     void count_frames()
     {
@@ -137,7 +143,8 @@ private:
         see(now_.left, table_.left_colour, table_.left_grey);
         see(now_.right, table_.right_colour, table_.right_grey);
         Arena scratch(table_.scratch);
-        now_.views = TRY(aiming::compare_views(table_.left_grey, table_.right_grey, scratch));
+        const Result<aiming::Views> views = aiming::compare_views(table_.left_grey, table_.right_grey, scratch);
+        now_.views = views.ok() ? views.value() : aiming::Views{}; // of some sizes they are not known
         return {};
     }
 
@@ -146,6 +153,7 @@ private:
     AimScreen screen_;
     AimMoment now_;
     Rate left_rate_, right_rate_;
+    std::int64_t begun_us_ = 0;
 };
 
 } // namespace

@@ -52,6 +52,9 @@ Result<const SeenCamera*> find(const char* side, const CameraBinding& binding, s
         return failure(Fault::kUnavailable,
                        "%s: no camera is left for it, a rig needs two; there are: %s ('dicot probe' shows more)", side,
                        names_of(seen).c_str());
+    if (found == nullptr && taken != nullptr && is_meant(binding, *taken))
+        return failure(Fault::kConfig, "%s: '%s' is the camera at %s, which stands on the other side already", side,
+                       binding.what.c_str(), taken->identity.port.text);
     if (found == nullptr)
         return failure(Fault::kUnavailable, "%s: there is no camera '%s'; there are: %s ('dicot probe' shows more)",
                        side, binding.what.c_str(), names_of(seen).c_str());

@@ -75,6 +75,7 @@ Status Shot::take(ImageView<Rgb8> left, ImageView<Rgb8> right, Arena scratch)
 {
     const std::int64_t began_us = monotonic_us();
     const std::int64_t cpu_us = process_cpu_us();
+    rig_.cameras().skip_to_now();
     {
         Arena arena = scratch;
         Burst burst(arena, left.width, left.height, rules_);

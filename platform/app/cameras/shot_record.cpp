@@ -1,10 +1,14 @@
 #include "shot_record.h"
 
+#include "../aim/aim_advice.h"
+
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <utility>
 
 namespace dicot::app {
 namespace {
@@ -13,7 +17,7 @@ using nlohmann::json;
 
 constexpr double kMostSaturated = 0.02;    ///< of the pixels
 constexpr double kMostLumaDifference = 16; ///< levels between the means of both pictures
-constexpr double kLeastLuma = 20;          ///< levels
+constexpr double kDarkLuma = 20;           ///< levels
 
 std::string formatted(std::int64_t us, const char* format)
 {
@@ -46,9 +50,11 @@ json mode_record(const PlannedStream& stream)
             {"reserved_bytes_per_s", stream.reserved_bytes_per_s}};
 }
 
-json settling_record(const SettlingFigures& settling)
+json settling_record(const SideFigures& side)
 {
-    return {{"state", name_of(settling.state)},
+    const SettlingFigures& settling = side.settling;
+    return {{"settled", side.settled},
+            {"state", name_of(settling.state)},
             {"frames", settling.frames},
             {"seconds", static_cast<double>(settling.elapsed_us) * 1e-6},
             {"mean_luma", levels(settling.mean_luma_q8)},
@@ -83,7 +89,7 @@ json side_record(const Camera& camera, const SideFigures& side, const PlannedStr
               {"warming_up", side.warming_up},
               {"lost", side.lost},
               {"last_flaw", side.last_flaw.text}}},
-            {"warm_up", settling_record(side.settling)},
+            {"warm_up", settling_record(side)},
             {"ladder", ladder_record(side.ladder)}};
 }
 
@@ -144,9 +150,14 @@ json views_record(const std::optional<aiming::Views>& views)
 {
     if (!views)
         return {};
-    return {{"order", words_of(views->order)}, {"matches", views->matches},
-            {"shift_px", views->shift_px},     {"vertical_px", views->vertical_px},
-            {"roll_deg", views->roll_deg},     {"overlap_percent", views->overlap_percent}};
+    const auto known = [](bool is_known, double value) { return is_known ? json(value) : json(); };
+    const bool matched = views->known();
+    return {{"order", words_of(views->order)},
+            {"matches", views->matches},
+            {"shift_px", known(matched, views->shift_px)},
+            {"vertical_px", known(matched, views->vertical_px)},
+            {"roll_deg", known(matched && roll_known(*views), views->roll_deg)},
+            {"overlap_percent", known(matched, views->overlap_percent)}};
 }
 
 } // namespace
@@ -200,7 +211,7 @@ std::vector<std::string> shot_warnings(RigStream& rig, const ShotFigures& figure
     const double left = levels(figures.left.mean_q8);
     const double right = levels(figures.right.mean_q8);
     char text[160];
-    if (std::max(left, right) < kLeastLuma) {
+    if (std::max(left, right) < kDarkLuma) {
         std::snprintf(text, sizeof text, "it is dark: mean luma %.0f and %.0f of 255", left, right);
         warnings.emplace_back(text);
     } else if (std::abs(left - right) > kMostLumaDifference) {
@@ -214,7 +225,10 @@ std::vector<std::string> shot_warnings(RigStream& rig, const ShotFigures& figure
         warnings.emplace_back(text);
     }
     const StereoFigures& cameras = rig.cameras().figures();
-    if (cameras.left.settling.state == SettlingState::kGaveUp || cameras.right.settling.state == SettlingState::kGaveUp)
+    for (const auto& [side, ladder] : {std::pair{"left", &cameras.left.ladder}, {"right", &cameras.right.ladder}})
+        if (ladder->gave_up)
+            warnings.push_back(std::string("the ") + side + " camera stopped and did not come back");
+    if (!cameras.left.settled || !cameras.right.settled)
         warnings.emplace_back("the brightness did not become steady within exposure.warm_up_s");
     if (cameras.lock && cameras.lock->differing() > 0) {
         std::snprintf(text, sizeof text, "%d controls differ between the cameras", cameras.lock->differing());

@@ -40,7 +40,7 @@ Status check(const PointCloud& cloud)
     const CloudGrid& grid = cloud.grid;
     if (cloud.points.empty())
         return failure(Fault::kBadData, "the cloud has no points: nothing was matched within the working range; "
-                                        "check --near-mm and --far-mm, and the light");
+                                        "check the working range (near_mm, far_mm), and the light");
     if (cloud.points.size() > kMaxCloudPoints)
         return failure(Fault::kConfig, "the cloud has %zu points, and a file holds %zu at most: use smaller pictures",
                        cloud.points.size(), kMaxCloudPoints);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cinttypes>
 #include <cstdlib>
+#include <utility>
 
 namespace dicot {
 namespace {
@@ -47,7 +48,10 @@ Result<BurstFigures> Burst::take(StereoCamera& camera, ImageView<Rgb8> left, Ima
     const bool any_skew = camera.one_at_a_time();
     Status undecodable;
     for (; figures.pairs < rules_.pairs; ++figures.pairs) {
-        const StereoFrames frames = TRY(camera.next());
+        Result<StereoFrames> next = camera.next();
+        if (!next.ok() && next.status().fault() != Fault::kTryAgain && figures.used > 0)
+            break; // a camera died, but what it gave is good
+        const StereoFrames frames = TRY(std::move(next));
         if (figures.pairs == 0 || std::llabs(frames.skew_us) < std::llabs(figures.least_skew_us))
             figures.least_skew_us = frames.skew_us;
         if (!any_skew && std::llabs(frames.skew_us) > rules_.most_skew_us) {

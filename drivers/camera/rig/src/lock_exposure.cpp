@@ -111,15 +111,21 @@ Status let_converge(Camera& camera, PowerLine power_line)
     return setter.verdict();
 }
 
-Result<ExposureLock> lock_exposure(Camera& lead, Camera& other, PowerLine power_line)
+Result<ExposureLock> lock_exposure(Camera& lead, Camera& other, PowerLine power_line, const Camera** at_fault)
 {
+    const auto verdict_on = [&](const Setter& setter, const Camera& camera) {
+        const Status verdict = setter.verdict();
+        if (!verdict.ok() && at_fault != nullptr)
+            *at_fault = &camera;
+        return verdict;
+    };
     Setter of_lead(lead);
     Setter of_other(other);
     constexpr std::array kCopied{ControlId::kExposureTime, ControlId::kGain, ControlId::kWhiteBalance};
     std::array<std::optional<std::int32_t>, kCopied.size()> converged;
     for (std::size_t i = 0; i < kCopied.size(); ++i)
         converged[i] = of_lead.read(kCopied[i]);
-    TRY(of_lead.verdict());
+    TRY(verdict_on(of_lead, lead));
 
     ExposureLock lock;
     const auto set_both = [&](ControlId id, std::int32_t wanted) {
@@ -150,8 +156,8 @@ Result<ExposureLock> lock_exposure(Camera& lead, Camera& other, PowerLine power_
                 one.other.outcome = ControlOutcome::kRefused;
         }
     }
-    TRY(of_lead.verdict());
-    TRY(of_other.verdict());
+    TRY(verdict_on(of_lead, lead));
+    TRY(verdict_on(of_other, other));
     return lock;
 }
 

@@ -8,8 +8,12 @@
 namespace dicot {
 
 StereoCamera::StereoCamera(Camera& left, Camera& right, const StereoRules& rules) noexcept
-    : rules_(rules), left_{&left, &figures_.left, &figures_.plan.left, Ladder(rules.ladder)},
-      right_{&right, &figures_.right, &figures_.plan.right, Ladder(rules.ladder)}
+    : rules_(rules), left_{.camera = &left,
+                           .figures = &figures_.left,
+                           .planned = &figures_.plan.left,
+                           .ladder = Ladder(rules.ladder)},
+      right_{
+          .camera = &right, .figures = &figures_.right, .planned = &figures_.plan.right, .ladder = Ladder(rules.ladder)}
 {
 }
 
@@ -30,6 +34,13 @@ const StereoFigures& StereoCamera::figures() noexcept
     return figures_;
 }
 
+Status StereoCamera::stopped() const noexcept
+{
+    if (rules_.stop_asked == nullptr || !rules_.stop_asked())
+        return {};
+    return failure(Fault::kTryAgain, "stopped on request");
+}
+
 Status StereoCamera::begin(Side& side)
 {
     if (side.streams)
@@ -42,6 +53,7 @@ Status StereoCamera::begin(Side& side)
 
 Status StereoCamera::end(Side& side)
 {
+    side.ahead.reset();
     if (!side.streams)
         return {};
     side.streams = false;
@@ -95,6 +107,8 @@ Result<FrameLease> StereoCamera::look(Side& side)
 /// Shakes a camera until it delivers, or gives it up. A device that was opened again may have forgotten its controls.
 Status StereoCamera::recover(Side& side, const Status& why)
 {
+    TRY(stopped());
+    side.ahead.reset();
     const auto proof = [&](Camera& camera) -> Status {
         side.fresh = rules_.frames_after_start;
         TRY(begin(side));
@@ -108,13 +122,18 @@ Status StereoCamera::recover(Side& side, const Status& why)
 Result<FrameLease> StereoCamera::whole_frame(Side& side)
 {
     constexpr int kMostPassedOver = 64;
+    constexpr std::int64_t kIntervals = 3;
+    const std::int64_t interval_us = side.planned->mode.interval_100ns / 10;
+    const std::int64_t most_age_us = std::max(rules_.most_age_us, kIntervals * interval_us);
     for (int passed_over = 0;;) { // each failure costs one of the ladder's shakes
+        TRY(stopped());
         Result<FrameLease> frame = look(side);
         if (!frame.ok()) {
             TRY(recover(side, frame.status()));
             continue;
         }
-        const bool old = rules_.most_age_us > 0 && now_us() - frame.value()->start_us > rules_.most_age_us;
+        const std::int64_t start_us = frame.value()->start_us;
+        const bool old = start_us < not_before_us_ || (rules_.most_age_us > 0 && now_us() - start_us > most_age_us);
         const bool early = frame.value()->verdict == FrameVerdict::kWarmingUp;
         if ((!old && !early) || ++passed_over > kMostPassedOver)
             return frame;
@@ -147,7 +166,12 @@ Status StereoCamera::start(ModePlanner& planner)
     TRY(stop());
     int full = 0; // answers of the bus that it is
     int silences = 0;
+    const auto is_a_way = [&](const BandwidthPlan& plan) {
+        return plan.together == Together::kAtOnce ||
+               (plan.together == Together::kOneAfterTheOther && rules_.one_after_the_other);
+    };
     for (int refused = 0;;) {
+        TRY(stopped());
         figures_.plan = planner.plan(refused);
         figures_.refused = refused;
         if (figures_.plan.together == Together::kNotAtAll)
@@ -163,7 +187,7 @@ Status StereoCamera::start(ModePlanner& planner)
         const bool bus_full = again && !attempt.streamed;
         const bool silent = again && attempt.streamed && ++silences <= kSilencesOnTheBus;
         const bool less = bus_full || (silent && silences > 1);
-        if (less && refused < kMostRefusals && planner.plan(refused + 1).together != Together::kNotAtAll) {
+        if (less && refused < kMostRefusals && is_a_way(planner.plan(refused + 1))) {
             ++refused;
             full += bus_full ? 1 : 0;
         } else if (!silent || silences > 1) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 namespace dicot {
@@ -19,12 +20,22 @@ Result<StereoFrames> StereoCamera::next()
     return one_at_a_time() ? next_in_turn() : next_at_once();
 }
 
+/// What the last pair looked at and did not take, or the next frame.
+Result<FrameLease> StereoCamera::first_frame(Side& side)
+{
+    std::optional<FrameLease> ahead = std::exchange(side.ahead, std::nullopt);
+    if (ahead && (*ahead)->start_us >= not_before_us_)
+        return std::move(*ahead);
+    ahead.reset();
+    return whole_frame(side);
+}
+
 /// Walks along both streams, always on at the older frame, as long as its successor is nearer to the other one.
 Result<StereoFrames> StereoCamera::next_at_once()
 {
     constexpr int kMostSteps = 1024; // a camera that was shaken may be half a minute behind; clocks that run apart end
-    FrameLease left = TRY(whole_frame(left_));
-    FrameLease right = TRY(whole_frame(right_));
+    FrameLease left = TRY(first_frame(left_));
+    FrameLease right = TRY(first_frame(right_));
     for (int step = 0; step < kMostSteps; ++step) {
         const bool left_is_older = left->start_us <= right->start_us;
         FrameLease successor = TRY(whole_frame(left_is_older ? left_ : right_));
@@ -32,8 +43,10 @@ Result<StereoFrames> StereoCamera::next_at_once()
         const std::array pair_of_older{time_of(older), time_of(successor)};
         const std::array other{time_of(left_is_older ? right : left)};
         const Pairing pairing = left_is_older ? best_pair(pair_of_older, other) : best_pair(other, pair_of_older);
-        if ((left_is_older ? pairing.left : pairing.right) == 0)
+        if ((left_is_older ? pairing.left : pairing.right) == 0) {
+            (left_is_older ? left_ : right_).ahead = std::move(successor);
             return StereoFrames{std::move(left), std::move(right), pairing.skew_us};
+        }
         older = std::move(successor);
     }
     return failure(Fault::kUnavailable,
@@ -45,7 +58,7 @@ Result<FrameLease> StereoCamera::frame_in_turn(Side& side)
 {
     TRY(insist(side, [&] { return begin(side); }));
     FrameLease frame = TRY(whole_frame(side));
-    TRY(end(side));
+    (void)end(side); // the frame is there; a stream that does not end shows at the next start
     return frame;
 }
 

@@ -2,16 +2,25 @@
 
 #include "dicot/camera/luma.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
 namespace dicot {
+namespace {
+
+constexpr std::int64_t kLeastUs = 2'000'000; // of the second phase
+
+} // namespace
 
 /// Feeds the pictures of streaming cameras until each of them is steady, or its bound is reached.
-Status StereoCamera::settle(std::span<Side* const> sides)
+Status StereoCamera::settle(std::span<Side* const> sides, std::int64_t most_us)
 {
-    std::array settling{Settling(rules_.settling, now_us()), Settling(rules_.settling, now_us())};
+    SettlingRules rules = rules_.settling;
+    rules.most_us = most_us;
+    std::array settling{Settling(rules, now_us()), Settling(rules, now_us())};
     for (bool warming = true; warming;) {
+        TRY(stopped());
         warming = false;
         for (std::size_t i = 0; i < sides.size(); ++i) {
             const Result<FrameLease> frame = look(*sides[i]);
@@ -22,6 +31,7 @@ Status StereoCamera::settle(std::span<Side* const> sides)
                 luma.ok() ? settling[i].feed(luma.value().mean_q8, now_us()) : settling[i].note_time(now_us());
             sides[i]->figures->settling = settling[i].figures();
             warming |= state == SettlingState::kWarming;
+            sides[i]->figures->settled &= state != SettlingState::kGaveUp;
         }
     }
     return {};
@@ -29,25 +39,36 @@ Status StereoCamera::settle(std::span<Side* const> sides)
 
 Status StereoCamera::converge(Side& side)
 {
-    return insist(side, [&] { return let_converge(*side.camera, rules_.power_line); });
+    return insist(side, [&] { return dicot::let_converge(*side.camera, rules_.power_line); });
 }
 
 Status StereoCamera::lock()
 {
+    const Camera* at_fault = nullptr;
     const auto work = [&]() -> Status {
-        figures_.lock = TRY(lock_exposure(*left_.camera, *right_.camera, rules_.power_line));
+        figures_.lock = TRY(lock_exposure(*left_.camera, *right_.camera, rules_.power_line, &at_fault));
         return {};
     };
     const Status status = work();
     if (status.ok())
         return status;
-    for (Side* side : {&left_, &right_}) // either of them may be the one that failed
-        TRY(recover(*side, status));
+    Side& ill = at_fault == right_.camera ? right_ : left_;
+    if (one_at_a_time()) // the bus carries one of them
+        (void)end(&ill == &left_ ? right_ : left_);
+    TRY(recover(ill, status));
     return work();
+}
+
+Status StereoCamera::let_converge()
+{
+    figures_.lock.reset();
+    TRY(converge(left_));
+    return converge(right_);
 }
 
 Status StereoCamera::warm_up()
 {
+    figures_.left.settled = figures_.right.settled = true;
     warming_ = true;
     const Status status = one_at_a_time() ? warm_up_in_turn() : warm_up_at_once();
     warming_ = false;
@@ -57,28 +78,29 @@ Status StereoCamera::warm_up()
 Status StereoCamera::warm_up_at_once()
 {
     const std::array sides{&left_, &right_};
-    figures_.lock.reset();
-    if (rules_.lock_exposure) {
-        for (Side* side : sides)
-            TRY(converge(*side));
-        TRY(settle(sides));
-        TRY(lock());
-    }
-    return settle(sides);
+    const std::int64_t until_us = now_us() + rules_.settling.most_us;
+    TRY(let_converge());
+    TRY(settle(sides, rules_.settling.most_us));
+    if (!rules_.lock_exposure)
+        return {};
+    TRY(lock());
+    return settle(sides, std::max(until_us - now_us(), kLeastUs));
 }
 
 Status StereoCamera::warm_up_in_turn()
 {
+    const std::int64_t until_us = now_us() + rules_.settling.most_us;
     figures_.lock.reset();
     for (Side* side : {&left_, &right_}) {
         TRY(insist(*side, [&] { return begin(*side); }));
         const bool leads = side == &left_ && rules_.lock_exposure;
-        if (leads)
+        if (leads || !rules_.lock_exposure)
             TRY(converge(*side));
-        TRY(settle(std::array{side}));
+        const std::int64_t left_us = until_us - now_us();
+        TRY(settle(std::array{side}, side == &left_ ? left_us : std::max(left_us, kLeastUs)));
         if (leads)
             TRY(lock());
-        TRY(end(*side));
+        (void)end(*side);
     }
     return {};
 }

@@ -85,8 +85,11 @@ private:
                 return failure(Fault::kTryAgain, "stopped after %d of %d pairs", guide_.kept(), guide_.wanted());
             if (stream_.now_us() >= end_us)
                 return at_the_end_of_time();
-            const LivePair pair = TRY(stream_.next(table_.colour[0], table_.colour[1]));
-            TRY(look_at(pair, end_us - stream_.now_us()));
+            const Result<LivePair> pair = stream_.next(table_.colour[0], table_.colour[1]);
+            if (!pair.ok() && StopRequest::asked())
+                continue;
+            TRY(pair.status());
+            TRY(look_at(pair.value(), end_us - stream_.now_us()));
         }
         return {};
     }

@@ -73,8 +73,9 @@ Status let_converge(Camera& camera, PowerLine power_line);
 /// Reads exposure time, gain and white balance of `lead`, after its warm-up; switches the autos of both cameras off and
 /// sets these values on both. A value is one that both devices can have, if their ranges hold one near it; what each
 /// has in the end is read back. A focus is not copied, since lenses differ. Fault::kUnavailable: kMostRefusedControls
-/// calls of one camera failed.
-Result<ExposureLock> lock_exposure(Camera& lead, Camera& other, PowerLine power_line);
+/// calls of one camera failed: the one in `at_fault`.
+Result<ExposureLock> lock_exposure(Camera& lead, Camera& other, PowerLine power_line,
+                                   const Camera** at_fault = nullptr);
 
 /// Sets once more what lock_exposure() left on one of the cameras, which may have lost it since: a device that was
 /// plugged in again begins with its own values. Fault::kUnavailable: kMostRefusedControls calls failed.

@@ -9,6 +9,7 @@
 #include "dicot/camera_rig/settling.h"
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -35,8 +36,11 @@ struct StereoRules
     std::int64_t patience_us = 3'000'000; ///< without a frame for so long a camera has failed
     int most_torn = 30;                   ///< so many torn frames in a row too
     int frames_after_start = 4;           ///< of each new stream, passed over: sensors begin dark or green
-    std::int64_t most_age_us = 0; ///< older frames are passed over, for work that is to be live; 0: any age will do
-    std::int64_t* virtual_now_us = nullptr; ///< the clock of replay cameras; null: monotonic_us()
+    /// Older frames are passed over, for work that is to be live, if they are older than three intervals too; 0: any
+    /// age will do.
+    std::int64_t most_age_us = 0;
+    std::int64_t* virtual_now_us = nullptr;  ///< the clock of replay cameras; null: monotonic_us()
+    bool (*stop_asked)() noexcept = nullptr; ///< asked before each frame: whether somebody wants an end
 };
 
 /// What a camera delivered since it was opened.
@@ -48,7 +52,8 @@ struct SideFigures
     std::uint64_t warming_up = 0; ///< whole, but before the picture was steady
     std::uint64_t lost = 0;
     DeviceText<63> last_flaw; ///< of the last torn frame
-    SettlingFigures settling;
+    SettlingFigures settling; ///< of the last phase of the warm-up
+    bool settled = true;      ///< no phase reached its bound
     LadderFigures ladder;
 };
 
@@ -68,7 +73,8 @@ struct StereoFrames
 };
 
 /// Neither call waits for ever: each frame is waited for StereoRules::patience_us, each failure costs one of
-/// LadderRules::most_shakes, and the warm-up has the bound of SettlingRules.
+/// LadderRules::most_shakes, and the warm-up has the bound of SettlingRules. Each of them ends with Fault::kTryAgain
+/// soon after StereoRules::stop_asked() says so.
 class StereoCamera
 {
 public:
@@ -85,10 +91,17 @@ public:
     /// sentence has the reasons.
     Status start(ModePlanner& planner);
 
+    /// Exposure, gain and white balance are left to the cameras, autofocus is off. Devices keep what they were told by
+    /// whoever had them before. Fault::kUnavailable: a camera's controls fail for good.
+    Status let_converge();
+
     /// Until both pictures are as bright as they will stay, with one exposure (StereoRules::lock_exposure): the left
-    /// camera converges, the right one gets its values. A warm-up that reaches its bound is no failure: the figures
-    /// say so. Fault::kUnavailable: a camera stays dead.
+    /// camera converges, the right one gets its values. The bound holds for both phases together, but that the second
+    /// one has 2 s at least; reaching it is no failure: the figures say so. Fault::kUnavailable: a camera stays dead.
     Status warm_up();
+
+    /// Frames that began before now are passed over: the buffers may hold what was long ago.
+    void skip_to_now() noexcept { not_before_us_ = now_us(); }
 
     /// The next pair: of the frames that neighbour each other the two whole ones that began nearest to each other. One
     /// after the other: a frame of each, the streams started and stopped in between. Fault::kUnavailable: a camera
@@ -112,7 +125,8 @@ private:
         const PlannedStream* planned = nullptr;
         Ladder ladder;
         bool streams = false;
-        int fresh = 0; ///< frames that are still to be passed over
+        int fresh = 0;                     ///< frames that are still to be passed over
+        std::optional<FrameLease> ahead{}; ///< looked at, and not yet used
     };
     /// How far a plan got.
     struct Attempt
@@ -138,7 +152,9 @@ private:
         TRY(recover(side, status));
         return work();
     }
-    Status settle(std::span<Side* const> sides);
+    Result<FrameLease> first_frame(Side& side);
+    Status stopped() const noexcept;
+    Status settle(std::span<Side* const> sides, std::int64_t most_us);
     Status converge(Side& side);
     Status lock();
     Status warm_up_at_once();
@@ -153,6 +169,7 @@ private:
     Side left_;
     Side right_;
     bool warming_ = false;
+    std::int64_t not_before_us_ = std::numeric_limits<std::int64_t>::min();
 };
 
 } // namespace dicot
