@@ -8,15 +8,17 @@ namespace dicot::app {
 
 Status make_folder(const std::string& path)
 {
+    if (::mkdir(path.c_str(), 0777) == 0)
+        return {};
+    const int error = errno;
     struct stat there
     {
     };
-    if (::stat(path.c_str(), &there) == 0 && S_ISDIR(there.st_mode))
+    if (::stat(path.c_str(), &there) == 0 &&
+        S_ISDIR(there.st_mode)) // asked afterwards: another process may make it too
         return {};
-    if (::mkdir(path.c_str(), 0777) != 0)
-        return failure(Fault::kCannotCreate, "%s: cannot be created as a folder (%s): name another one", path.c_str(),
-                       std::strerror(errno));
-    return {};
+    return failure(Fault::kCannotCreate, "%s: cannot be created as a folder (%s): name another one", path.c_str(),
+                   std::strerror(error));
 }
 
 } // namespace dicot::app

@@ -143,13 +143,13 @@ Status run(const Words& words)
         TRY(drawn.open(config));
         std::fprintf(stderr, "dicot: there is no camera and no configuration: a drawn pair of pictures is used\n");
     }
+    const StopRequest stop;
     const std::int64_t began_us = utc_now_us();
     const std::string around = words.folder.empty() ? config.output.folder : words.folder;
     PartFolder folder;
     TRY(folder.open(around, utc_stamp(began_us)));
     Snapshot snapshot;
     snapshot.record = {{"format", kRecordFormat}, {"software", "dicot " DICOT_VERSION}, {"time", utc_words(began_us)}};
-    const StopRequest stop;
     const Status status = shoot(words, config, folder.path(), snapshot);
     const bool tried = status.fault() != Fault::kConfig && status.fault() != Fault::kUsage;
     if (!tried || (!status.ok() && StopRequest::asked()))

@@ -119,4 +119,17 @@ Result<Views> compare_views(Grey left, Grey right, Arena& scratch)
     return views;
 }
 
+const char* name_of(Order order) noexcept
+{
+    switch (order) {
+    case Order::kAsNamed:
+        return "as named";
+    case Order::kSwapped:
+        return "swapped";
+    case Order::kNotKnown:
+        break;
+    }
+    return "not known";
+}
+
 } // namespace dicot::aiming

@@ -9,11 +9,6 @@ namespace {
 
 constexpr std::size_t kApart = 4;
 
-std::uint8_t luma_of_rgb(unsigned r, unsigned g, unsigned b) noexcept
-{
-    return static_cast<std::uint8_t>((77 * r + 150 * g + 29 * b + 128) / 256);
-}
-
 struct Tally
 {
     std::uint64_t sum = 0;
@@ -46,7 +41,7 @@ std::uint8_t luma_at(const Frame& frame, std::size_t pixel) noexcept
     case PixelFormat::kGrey:
         return at(pixel);
     case PixelFormat::kRgb24:
-        return luma_of_rgb(at(3 * pixel), at(3 * pixel + 1), at(3 * pixel + 2));
+        return luma_of(Rgb8{at(3 * pixel), at(3 * pixel + 1), at(3 * pixel + 2)});
     case PixelFormat::kMjpeg:
         break;
     }
@@ -83,8 +78,7 @@ LumaFigures luma_of(ImageView<const Rgb8> picture) noexcept
     Tally tally;
     for (int y = 0; y < picture.height; y += static_cast<int>(kApart))
         for (int x = 0; x < picture.width; x += static_cast<int>(kApart)) {
-            const Rgb8& pixel = picture.at(x, y);
-            tally.add(luma_of_rgb(pixel.r, pixel.g, pixel.b));
+            tally.add(luma_of(picture.at(x, y)));
         }
     return tally.figures();
 }

@@ -36,19 +36,6 @@ json as_json(const AimSide& side)
             {"lost", side.lost}};
 }
 
-const char* name_of(aiming::Order order)
-{
-    switch (order) {
-    case aiming::Order::kAsNamed:
-        return "as named";
-    case aiming::Order::kSwapped:
-        return "swapped";
-    case aiming::Order::kNotKnown:
-        break;
-    }
-    return "not known";
-}
-
 json as_json(const aiming::Views& views)
 {
     const auto px = [&](double value) { return views.known() ? json(rounded(value, 100)) : json(nullptr); };

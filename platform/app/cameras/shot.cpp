@@ -2,6 +2,7 @@
 
 #include "../take_picture.h"
 
+#include "dicot/calibration/grey.h"
 #include "dicot/os/clock.h"
 #include "dicot/picture/write_picture.h"
 
@@ -25,14 +26,6 @@ Greys take_greys(Arena& arena, int width, int height)
 {
     const auto left = take_picture<std::uint8_t>(arena, width, height);
     return {left, take_picture<std::uint8_t>(arena, width, height)};
-}
-
-void to_grey(ImageView<const Rgb8> from, ImageView<std::uint8_t> to)
-{
-    for (int y = 0; y < from.height; ++y)
-        std::transform(from.row(y), from.row(y) + from.width, to.row(y), [](const Rgb8& pixel) {
-            return static_cast<std::uint8_t>((77 * pixel.r + 150 * pixel.g + 29 * pixel.b + 128) / 256);
-        });
 }
 
 std::int64_t utc_us()
@@ -96,8 +89,8 @@ void Shot::look_at(ImageView<const Rgb8> left, ImageView<const Rgb8> right, Aren
     if (!is_compared(left.width, left.height))
         return;
     const Greys greys = take_greys(scratch, left.width, left.height);
-    to_grey(left, greys.left);
-    to_grey(right, greys.right);
+    calibration::to_grey(left, greys.left);
+    calibration::to_grey(right, greys.right);
     if (const Result<aiming::Views> views = aiming::compare_views(greys.left, greys.right, scratch); views.ok())
         figures_.views = views.value();
 }

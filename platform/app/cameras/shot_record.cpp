@@ -133,26 +133,13 @@ json average_record(const AverageFigures& average)
             {"too_much_moved", average.whole}};
 }
 
-const char* words_of(aiming::Order order)
-{
-    switch (order) {
-    case aiming::Order::kAsNamed:
-        return "as named";
-    case aiming::Order::kSwapped:
-        return "swapped";
-    case aiming::Order::kNotKnown:
-        break;
-    }
-    return "not known";
-}
-
 json views_record(const std::optional<aiming::Views>& views)
 {
     if (!views)
         return {};
     const auto known = [](bool is_known, double value) { return is_known ? json(value) : json(); };
     const bool matched = views->known();
-    return {{"order", words_of(views->order)},
+    return {{"order", name_of(views->order)},
             {"matches", views->matches},
             {"shift_px", known(matched, views->shift_px)},
             {"vertical_px", known(matched, views->vertical_px)},

@@ -1,5 +1,7 @@
 #include "dicot/camera_rig/frame_average.h"
 
+#include "dicot/camera/luma.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -8,11 +10,6 @@ namespace dicot {
 namespace {
 
 constexpr int kReach = 2; ///< px around a pixel that moved
-
-int luma(const Rgb8& pixel) noexcept
-{
-    return (77 * pixel.r + 150 * pixel.g + 29 * pixel.b + 128) / 256;
-}
 
 } // namespace
 
@@ -46,7 +43,7 @@ void FrameAverage::add(ImageView<const Rgb8> picture) noexcept
             sum_[3 * i] = static_cast<std::uint16_t>(sum_[3 * i] + pixel.r);
             sum_[3 * i + 1] = static_cast<std::uint16_t>(sum_[3 * i + 1] + pixel.g);
             sum_[3 * i + 2] = static_cast<std::uint16_t>(sum_[3 * i + 2] + pixel.b);
-            const auto level = static_cast<std::uint8_t>(luma(pixel));
+            const auto level = luma_of(pixel);
             least_[i] = std::min(least_[i], level);
             most_[i] = std::max(most_[i], level);
         }
@@ -102,7 +99,7 @@ std::uint64_t sharpness_q8(ImageView<const Rgb8> picture) noexcept
     for (int y = 0; y < picture.height; ++y) {
         const Rgb8* row = picture.row(y);
         for (int x = 1; x < picture.width; ++x) {
-            const int step = luma(row[x]) - luma(row[x - 1]);
+            const int step = luma_of(row[x]) - luma_of(row[x - 1]);
             sum += static_cast<std::uint64_t>(step * step);
         }
     }

@@ -17,6 +17,9 @@ enum class Order : std::uint8_t
     kSwapped,  ///< the opposite: left is right
 };
 
+/// "as named": for reports.
+const char* name_of(Order order) noexcept;
+
 /// Figures of one pair. Pixels are those of the pictures given, as the cameras gave them.
 struct Views
 {

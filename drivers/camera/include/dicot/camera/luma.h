@@ -16,6 +16,12 @@ struct LumaFigures
     std::uint32_t samples = 0;       ///< how many were looked at
 };
 
+/// Luma of a decoded pixel, 0 .. 255, full range.
+constexpr std::uint8_t luma_of(Rgb8 pixel) noexcept
+{
+    return static_cast<std::uint8_t>((77U * pixel.r + 150U * pixel.g + 29U * pixel.b + 128U) / 256U);
+}
+
 constexpr int kSaturatedLuma = 250; ///< of the decoded picture, 0 .. 255
 
 /// Looks at every 4th pixel of every 4th row (raw formats) or at the means of all 8 x 8 blocks (MJPEG, where a small
@@ -23,7 +29,7 @@ constexpr int kSaturatedLuma = 250; ///< of the decoded picture, 0 .. 255
 /// spread as decode_frame() does. Integers only. Faults as for decode_frame().
 Result<LumaFigures> luma_of(const Frame& frame) noexcept;
 
-/// The same of a decoded picture: luma is (77 r + 150 g + 29 b + 128) / 256.
+/// The same of a decoded picture.
 LumaFigures luma_of(ImageView<const Rgb8> picture) noexcept;
 
 } // namespace dicot

@@ -112,8 +112,6 @@ public:
     Status stop();
 
     const StereoFigures& figures() noexcept;
-    const PlannedStream& stream_of_left() const noexcept { return figures_.plan.left; }
-    const PlannedStream& stream_of_right() const noexcept { return figures_.plan.right; }
     bool one_at_a_time() const noexcept { return figures_.plan.together == Together::kOneAfterTheOther; }
     std::int64_t now_us() const noexcept;
 
