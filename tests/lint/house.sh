@@ -75,6 +75,7 @@ done)"
 door 'Eigen/' algo/calibration
 door 'draco/' storage/codec
 door 'yaml\.h' storage/rig
+door 'sqlite3\.h' storage/catalogue
 door 'sha2\.h' platform/os
 door 'png\.h' platform/picture
 door 'j(peglib|error)\.h' platform/picture
