@@ -1,6 +1,7 @@
 #include "card_state.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace dicot::test {
 
@@ -74,6 +75,32 @@ std::uint64_t CardState::used_bytes() const
             to_see.push_back(number);
     }
     return blocks * kBlock;
+}
+
+std::uint64_t CardState::fingerprint() const
+{
+    std::uint64_t hash = 0;
+    const auto mix = [&](std::uint64_t word) { hash = Dice{hash ^ word}.next(); };
+    const auto mix_bytes = [&](const void* bytes, std::size_t count) {
+        mix(count);
+        for (std::size_t at = 0; at < count; at += sizeof(std::uint64_t)) {
+            std::uint64_t word = 0;
+            std::memcpy(&word, static_cast<const char*>(bytes) + at, std::min(sizeof word, count - at));
+            mix(word);
+        }
+    };
+    std::vector<int> to_see{kRoot};
+    while (!to_see.empty()) {
+        const CardNode& node = nodes[static_cast<std::size_t>(to_see.back())];
+        to_see.pop_back();
+        mix(node.folder ? 1 : 2);
+        mix_bytes(node.bytes.data(), node.bytes.size());
+        for (const auto& [name, number] : node.entries) {
+            mix_bytes(name.data(), name.size());
+            to_see.push_back(number);
+        }
+    }
+    return hash;
 }
 
 std::uint64_t Dice::next() noexcept

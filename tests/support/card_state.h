@@ -57,6 +57,8 @@ struct CardState
     int find(std::string_view path) const;
     /// As a file system would count it: whole blocks of 4096 bytes, one for a folder.
     std::uint64_t used_bytes() const;
+    /// Of all names and bytes that can be reached.
+    std::uint64_t fingerprint() const;
 };
 
 /// How the power goes. Written as "subset:37:5": mode, changes done before it, seed.

@@ -53,6 +53,7 @@ public:
     Errno sync_folder(const char* path) override;
     Errno space(MediumSpace& space) override;
     Errno lock() override { return {}; } ///< one process
+    void unlock() override {}
 
     /// The other way in, for a library that writes anywhere in its files. Nodes are those of CardState.
     struct Made
