@@ -22,7 +22,6 @@ inline constexpr const char* kRecord = "record.json";
 inline constexpr const char* kSums = "SHA256SUMS";
 inline constexpr const char* kPulledMark = "PULLED";
 
-
 struct SnapshotName
 {
     std::int64_t sequence = 0;
