@@ -27,7 +27,7 @@ std::string record_of(std::int64_t sequence, std::int64_t began_us, const Conten
     facts.sequence = sequence;
     facts.began_us = began_us;
     facts.done = content.done;
-    facts.reason = content.reason;
+    facts.reason = content.reason.c_str();
     facts.clock_trust = "set";
     facts.points = content.done ? sequence * 10 : 0;
     char text[kMaxPlainRecordBytes];
