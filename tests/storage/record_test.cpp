@@ -76,7 +76,7 @@ TEST(Record, RefusesWhatItCannotBelieveAndNamesTheFile)
         {"\"sequence\": 17", "\"sequence\": -17"},
         {"\"sequence\": 17", "\"sequence\": 17.0"},
         {"\"sequence\": 17", "\"sequence\": \"17\""},
-        {"\"sequence\": 17", "\"sequence\": 9007199254740992"},
+        {"\"sequence\": 17", "\"sequence\": 1000000000"},
         {"\"sequence\": 17", "\"sequence\": 18446744073709551617"},
         {"\"sequence\": 17", "\"sequence\": null"},
         {"\"sequence\": 17", "\"sequence\": [17]"},
@@ -168,7 +168,7 @@ TEST(Record, IsReadWithinTheLentHeapAloneWhateverItIs)
 TEST(Record, ThePlainOneIsReadBackAsItWasWritten)
 {
     RecordFacts facts;
-    facts.sequence = 9007199254740991;
+    facts.sequence = 999'999'999;
     facts.began_us = -62'167'219'200'000'000; // 0000-01-01
     facts.reason = "power went \"away\" \\ in the middle – 葉";
     facts.clock_trust = "none";

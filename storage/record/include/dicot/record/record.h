@@ -13,7 +13,7 @@ namespace dicot {
 
 inline constexpr const char* kRecordFormat = "dicot record 1";
 inline constexpr std::size_t kMaxRecordBytes = std::size_t{256} << 10;
-inline constexpr std::int64_t kMaxSequence = (std::int64_t{1} << 53) - 1; ///< JSON readers with doubles see it exactly
+inline constexpr std::int64_t kMaxSequence = 999'999'999; ///< of which the store names folders
 inline constexpr std::int64_t kMaxRecordPoints = (std::int64_t{1} << 32) - 1;
 
 struct RecordFacts
