@@ -12,8 +12,8 @@ namespace {
 constexpr std::int64_t kSecondUs = 1'000'000;
 constexpr std::int64_t kMaxBytes = std::int64_t{1} << 40;
 
-static_assert(kFirstUtcUs == -62167219200000000 && kLastUtcUs == 253402300799999999 &&
-              kMaxSequence == 999999999 && kMaxRecordPoints == 4294967295 && kMaxBytes == 1099511627776);
+static_assert(kFirstUtcUs == -62167219200000000 && kLastUtcUs == 253402300799999999 && kMaxSequence == 999999999 &&
+              kMaxRecordPoints == 4294967295 && kMaxBytes == 1099511627776);
 
 #define DICOT_TIME(name) "typeof(" name ")='integer' AND " name " BETWEEN -62167219200000000 AND 253402300799999999"
 #define DICOT_TEXT(name, most)                                                                                         \
