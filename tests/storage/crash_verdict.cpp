@@ -180,7 +180,7 @@ void Judge::look_for_strangers()
     const CardState& state = card_.now();
     for (const auto& [day, number] : state.nodes[CardState::kRoot].entries) {
         const CardNode& node = state.nodes[static_cast<std::size_t>(number)];
-        if (!node.folder || day.size() != 10)
+        if (!node.folder || day[0] < '0' || day[0] > '9')
             continue;
         for (const auto& [name, inside] : node.entries)
             if (std::string path = day; folders.count(path.append("/").append(name)) == 0)
