@@ -38,7 +38,6 @@ Status let_go(Medium& medium, Catalogue& catalogue, SlotRow row)
     const StorePath from = folder_of(row);
     const StorePath to = join(kLeaving, snapshot_name({row.sequence, row.began_us}).view());
     TRY(on_card(medium.rename(from.c_str(), to.c_str()), from.c_str(), "renaming"));
-    (void)medium.remove_folder(utc_day(row.began_us).c_str()); // the last one of its day; otherwise it is refused
     row.kept = Kept::kPruned;
     return catalogue.put(row);
 }
@@ -104,12 +103,13 @@ Status finish_leaving(Medium& medium, Catalogue& catalogue)
         TRY(on_card(listed, kLeaving, "listing it"));
         if (count == 0)
             return {};
-        // A file that is gone must not come to be missing in its old place.
+        // What is gone must not come to be missing in its old place.
         if (!std::exchange(synced, true))
             TRY(on_card(medium.sync_all(), kLeaving, "syncing"));
         for (std::size_t i = 0; i < count; ++i) {
             const SnapshotName name = *parse_snapshot_name(emptied[i].view());
             TRY(empty_folder(medium, join(kLeaving, emptied[i].view())));
+            (void)medium.remove_folder(utc_day(name.began_us).c_str()); // refused if it was not the last of its day
             SlotRow row = TRY(catalogue.find(name.sequence)).value_or(row_named(name));
             if (row.kept != Kept::kPruned && row.began_us == name.began_us) {
                 row.kept = Kept::kPruned;
