@@ -3,7 +3,7 @@
 
 #include "dicot/base/short_text.h"
 #include "dicot/catalogue/catalogue.h"
-#include "dicot/record/record.h" // kMaxSequence
+#include "dicot/record/record.h"
 
 #include <cstdint>
 #include <optional>

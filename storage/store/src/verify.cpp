@@ -115,20 +115,22 @@ Result<bool> Verifier::check_folder(const StorePath& folder, const SnapshotName&
     }
     const ReadSums& sums = read.value();
     const std::optional<SlotRow> row = TRY(catalogue_.find(name.sequence));
+    // A digest, or a name, that does not fit may be wrong itself: then the catalogue has another digest of SHA256SUMS.
+    const bool sums_differ = row && !row->sums.empty() && row->sums != sums.sha256;
     bool whole = true;
     for (const Sum& sum : sums.sums.all()) {
-        const StorePath path = join(folder.view(), sum.name.view());
         const Status status = check_file(medium_, folder, sum, desk_, report_.bytes);
         if (status.ok())
             continue;
         whole = false;
-        const bool there = is_there(medium_, path.c_str());
-        // A digest that does not fit may be wrong itself: then the catalogue has another one of SHA256SUMS.
-        if (there && status.fault() == Fault::kBadData && row && !row->sums.empty() && row->sums != sums.sha256)
+        if (sums_differ) {
             find(Kind::kDamaged, name.sequence, sums_path, "its bytes are not those that were stored");
-        else
-            find(there ? Kind::kDamaged : Kind::kMissing, name.sequence, path,
-                 there ? status.message() : "it is not there");
+            return false;
+        }
+        const StorePath path = join(folder.view(), sum.name.view());
+        const bool there = is_there(medium_, path.c_str());
+        find(there ? Kind::kDamaged : Kind::kMissing, name.sequence, path,
+             there ? status.message() : "it is not there");
     }
     if (whole) {
         const Result<SlotRow> facts = row_of(medium_, folder, name, desk_);
