@@ -99,6 +99,16 @@ TEST_F(VerifyTest, ARowThatDiffersIsNamedAndPutRight)
     EXPECT_EQ(rows_of(store.catalogue()), before);
 }
 
+TEST_F(VerifyTest, ADamagedMarkOfAPullIsWrittenAnewFromTheCatalogue)
+{
+    const std::string path = std::string(kFirst) + "/PULLED";
+    const std::string whole = text_at(path);
+    write_at(path, "2026");
+    EXPECT_EQ(verify(true).mended, 1);
+    EXPECT_EQ(text_at(path), whole);
+    EXPECT_EQ(verify().findings, 0);
+}
+
 TEST_F(VerifyTest, AnotherSnapshotUnderThisNumberIsNoSnapshot)
 {
     close();
