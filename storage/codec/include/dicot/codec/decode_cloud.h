@@ -17,6 +17,7 @@ inline constexpr std::size_t kMaxCloudFileBytes = std::size_t{64} << 20;
 struct CloudOutline
 {
     std::size_t points = 0;
+    std::size_t points_at = 0; ///< where they begin in the file, in bytes
     CloudGrid grid;
     CloudMeta meta;
 };
