@@ -53,15 +53,12 @@ struct Way
 
 constexpr Way kWays[] = {
     {.name = "speed 0", .speed = 0},
-    {.name = "speed 3", .speed = 3},
     {.name = "speed 5"},
-    {.name = "speed 7", .speed = 7},
     {.name = "speed 10", .speed = 10},
     {.name = "serpentine rows", .order = Order::kSerpentine},
     {.name = "columns", .order = Order::kColumns},
     {.name = "blocks of 8 x 8", .order = Order::kBlocks},
     {.name = "no prediction", .predicts = false},
-    {.name = "no entropy coder", .built_in = false},
     {.name = "kd-tree", .kd_tree = true},
     {.name = "confidence 6 bits", .confidence_bits = 6},
     {.name = "confidence 5 bits", .confidence_bits = 5},
@@ -71,13 +68,7 @@ constexpr Way kWays[] = {
     {.name = "colour step 4", .colour_step = 4},
     {.name = "colour step 5", .colour_step = 5},
     {.name = "colour held, 2", .held = 2},
-    {.name = "colour step 3, held, 2", .colour_step = 3, .held = 2},
-    {.name = "step 3, 5 bits", .colour_step = 3, .confidence_bits = 5},
-    {.name = "step 3, 4 bits", .colour_step = 3, .confidence_bits = 4},
-    {.name = "step 5, 5 bits", .colour_step = 5, .confidence_bits = 5},
     {.name = "step 5, 4 bits", .colour_step = 5, .confidence_bits = 4},
-    {.name = "step 5, 4 bits, speed 0", .colour_step = 5, .confidence_bits = 4, .speed = 0},
-    {.name = "step 5, 4 bits, kd-tree", .colour_step = 5, .confidence_bits = 4, .kd_tree = true},
 };
 
 std::vector<CloudPoint> ordered(const test::BenchCloud& cloud, Order order)
@@ -204,27 +195,67 @@ Outcome pack(const std::vector<CloudPoint>& points, const CloudGrid& grid, const
     return outcome;
 }
 
+constexpr double kTargetPoints = 170000;
+
 void explore(const test::BenchCloud& cloud)
 {
     const auto count = static_cast<double>(cloud.points.size());
     std::printf("\n%s: %zu points, grid of %d bits; bits a point\n", cloud.name.c_str(), cloud.points.size(),
                 cloud.grid.bits);
-    std::printf("%-26s %8s %8s %8s %10s %13s %9s\n", "", "all", "position", "colour", "confidence", "ms/170,000 pt",
+    std::printf("%-18s %8s %8s %8s %10s %13s %9s\n", "", "all", "position", "colour", "confidence", "ms/170,000 pt",
                 "heap B/pt");
     for (const Way& way : kWays) {
         const auto points = rounded(ordered(cloud, way.order), way);
         const Outcome all = pack(points, cloud.grid, way, kAll);
-        std::printf("%-26s %8.1f", way.name, all.bits);
-        for (const unsigned part : {kPosition, kColour, kConfidence})
-            std::printf(part == kConfidence ? " %10.1f" : " %8.1f", pack(points, cloud.grid, way, part).bits);
-        std::printf(" %13.0f %9.0f\n", all.cpu_s * 1e3 * 170000 / count, static_cast<double>(all.peak_bytes) / count);
+        std::printf("%-18s %8.1f", way.name, all.bits);
+        for (const unsigned part : {kPosition, kColour, kConfidence}) {
+            const int width = part == kConfidence ? 10 : 8;
+            if (way.kd_tree) // reorders points by what it has, so its parts do not add up
+                std::printf(" %*s", width, "-");
+            else
+                std::printf(" %*.1f", width, pack(points, cloud.grid, way, part).bits);
+        }
+        std::printf(" %13.0f %9.0f\n", all.cpu_s * 1e3 * kTargetPoints / count,
+                    static_cast<double>(all.peak_bytes) / count);
     }
 }
 
 TEST(CodecBench, WaysOfPackingSideBySide)
 {
     for (const test::BenchCloud& cloud : test::bench_clouds())
-        explore(cloud);
+        if (cloud.name != "epipremnum") // says what the strawberry says
+            explore(cloud);
+}
+
+TEST(CodecBench, PlantsTakeAtMost30BitsAPointAnd300MsFor170000)
+{
+    std::printf("%-12s %8s %6s %9s %9s %13s %9s\n", "", "points", "bits", "PLY/file", "PCD/file", "ms/170,000 pt",
+                "heap B/pt");
+    for (const test::BenchCloud& cloud : test::bench_clouds()) {
+        const auto count = static_cast<double>(cloud.points.size());
+        const MemoryBlock block = MemoryBlock::map(encode_heap_bytes(cloud.points.size())).value();
+        double best_ms = 1e9;
+        EncodedCloud encoded;
+        for (int round = 0; round < 3; ++round) {
+            const std::int64_t start_us = process_cpu_us();
+            encoded = encode_cloud(cloud.cloud(), {}, block.bytes()).value();
+            best_ms = std::min(best_ms, static_cast<double>(process_cpu_us() - start_us) * 1e-3);
+        }
+        const auto file = static_cast<double>(encoded.bytes.size());
+        const double bits = 8 * file / count;
+        const double ms = best_ms * kTargetPoints / count;
+        std::printf("%-12s %8zu %6.1f %9.2f ", cloud.name.c_str(), cloud.points.size(), bits,
+                    static_cast<double>(cloud.ply_bytes) / file);
+        if (cloud.pcd_bytes > 0)
+            std::printf("%9.2f", static_cast<double>(cloud.pcd_bytes) / file);
+        else
+            std::printf("%9s", "no PCL");
+        std::printf(" %13.0f %9.1f\n", ms, static_cast<double>(encoded.heap_peak_bytes) / count);
+        if (cloud.plant) {
+            EXPECT_LE(bits, 30) << cloud.name;
+        }
+        EXPECT_LE(ms, 300) << cloud.name;
+    }
 }
 
 } // namespace

@@ -22,7 +22,7 @@ struct CloudOutline
     CloudMeta meta;
 };
 
-/// Reads the outline. Accepts only what encode_cloud() writes; anything else, also a Draco file of another make, is
+/// Reads the outline. Accepts only what encode_cloud() writes or wrote; anything else, also a Draco file of another make, is
 /// refused with `name` in the sentence (Fault::kBadData).
 Result<CloudOutline> outline_of(std::span<const std::byte> file, const char* name);
 
