@@ -75,11 +75,12 @@ done)"
 door 'Eigen/' algo/calibration
 door 'draco/' storage/codec
 door 'yaml\.h' storage/rig
+door 'sqlite3\.h' storage/catalogue
 door 'sha2\.h' platform/os
 door 'png\.h' platform/picture
 door 'j(peglib|error)\.h' platform/picture
 door 'CLI/' platform/app
-door 'nlohmann/' platform/app
+door 'nlohmann/' '(platform/app|storage/record)'
 door 'toml\+\+/' platform/app/config
 door 'linux/videodev2\.h' drivers/camera/v4l2
 door 'libusb' '(drivers/camera/uvc|drivers/usb)'

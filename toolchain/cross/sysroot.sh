@@ -14,7 +14,7 @@ case $arch in
 esac
 release=bookworm
 packages=libc6-dev,libstdc++-12-dev,libdraco-dev,libpng-dev,libjpeg62-turbo-dev,libyaml-dev,libcli11-dev
-packages=$packages,libmd-dev,nlohmann-json3-dev,libeigen3-dev,zlib1g-dev,libusb-1.0-0-dev,libtomlplusplus-dev
+packages=$packages,libmd-dev,nlohmann-json3-dev,libeigen3-dev,zlib1g-dev,libusb-1.0-0-dev,libtomlplusplus-dev,libsqlite3-dev
 
 checkout=$(cd "$(dirname "$0")/../.." && pwd)
 sysroot=$checkout/.cache/sysroot-$arch

@@ -15,7 +15,8 @@ namespace {
 /// All that lives across libjpeg's jumps out of an error; the jumps cross no frame with a destructor to run.
 struct JpegWrite
 {
-    OutputFile& file;
+    ByteSink& sink;
+    const char* name;
     jpeg_compress_struct jpeg;
     jpeg_error_mgr errors;
     jpeg_destination_mgr output;
@@ -34,7 +35,7 @@ JpegWrite& writer_of(j_compress_ptr jpeg) noexcept
     auto& write = *static_cast<JpegWrite*>(jpeg->client_data);
     char detail[JMSG_LENGTH_MAX];
     jpeg->err->format_message(jpeg, detail);
-    write.why = failure(Fault::kSoftware, "%s: libjpeg cannot write it (%s)", shown_path(write.file.path()), detail);
+    write.why = failure(Fault::kSoftware, "%s: libjpeg cannot write it (%s)", shown_path(write.name), detail);
     std::longjmp(write.escape, 1);
 }
 
@@ -49,7 +50,7 @@ void on_init(j_compress_ptr jpeg)
 
 void pass_on(JpegWrite& write, std::size_t count)
 {
-    write.why = write.file.write(write.buffer, count);
+    write.why = write.sink.write({reinterpret_cast<const std::byte*>(write.buffer), count});
     if (!write.why.ok())
         std::longjmp(write.escape, 1);
 }
@@ -101,15 +102,22 @@ void run(JpegWrite& write, const ImageView<const Rgb8>& picture, int quality)
 
 } // namespace
 
+Status write_jpeg(ByteSink& sink, const char* name, ImageView<const Rgb8> picture, int quality) noexcept
+{
+    TRY(check_writable_size(name, picture.width, picture.height));
+    JpegWrite write{
+        .sink = sink, .name = name, .jpeg = {}, .errors = {}, .output = {}, .why = {}, .escape = {}, .buffer = {}};
+    run(write, picture, quality);
+    jpeg_destroy_compress(&write.jpeg);
+    return write.why;
+}
+
 Status write_jpeg(const char* path, ImageView<const Rgb8> picture, int quality) noexcept
 {
     TRY(check_writable_size(path, picture.width, picture.height));
     OutputFile file;
     TRY(file.open(path));
-    JpegWrite write{.file = file, .jpeg = {}, .errors = {}, .output = {}, .why = {}, .escape = {}, .buffer = {}};
-    run(write, picture, quality);
-    jpeg_destroy_compress(&write.jpeg);
-    TRY(write.why);
+    TRY(write_jpeg(file, path, picture, quality));
     return file.commit();
 }
 

@@ -26,7 +26,8 @@ struct Rows
 /// All that lives across libpng's jumps out of an error; the jumps cross no frame with a destructor to run.
 struct PngWrite
 {
-    OutputFile& file;
+    ByteSink& sink;
+    const char* name;
     const Rows& rows;
     png_structp png = nullptr;
     png_infop info = nullptr;
@@ -43,7 +44,7 @@ struct PngWrite
 [[noreturn]] void on_error(png_structp png, png_const_charp detail)
 {
     auto& write = *static_cast<PngWrite*>(png_get_error_ptr(png));
-    leave(write, failure(Fault::kSoftware, "%s: libpng cannot write it (%s)", shown_path(write.file.path()), detail));
+    leave(write, failure(Fault::kSoftware, "%s: libpng cannot write it (%s)", shown_path(write.name), detail));
 }
 
 void on_warning(png_structp, png_const_charp) {}
@@ -51,7 +52,7 @@ void on_warning(png_structp, png_const_charp) {}
 void on_write(png_structp png, png_bytep bytes, std::size_t count)
 {
     auto& write = *static_cast<PngWrite*>(png_get_io_ptr(png));
-    write.why = write.file.write(bytes, count);
+    write.why = write.sink.write({reinterpret_cast<const std::byte*>(bytes), count});
     if (!write.why.ok())
         std::longjmp(write.escape, 1);
 }
@@ -65,8 +66,8 @@ void run(PngWrite& write)
     write.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &write, &on_error, &on_warning);
     write.info = write.png == nullptr ? nullptr : png_create_info_struct(write.png);
     if (write.info == nullptr)
-        leave(write, failure(Fault::kOsError, "%s: no memory for encoding; end other programs",
-                             shown_path(write.file.path())));
+        leave(write,
+              failure(Fault::kOsError, "%s: no memory for encoding; end other programs", shown_path(write.name)));
     png_set_write_fn(write.png, &write, &on_write, &on_flush);
     const Rows& rows = write.rows;
     png_set_IHDR(write.png, write.info, static_cast<png_uint_32>(rows.width), static_cast<png_uint_32>(rows.height),
@@ -80,30 +81,49 @@ void run(PngWrite& write)
     png_write_end(write.png, write.info);
 }
 
-Status write_rows(const char* path, const Rows& rows) noexcept
+Status write_rows(ByteSink& sink, const char* name, const Rows& rows) noexcept
+{
+    TRY(check_writable_size(name, rows.width, rows.height));
+    PngWrite write{.sink = sink, .name = name, .rows = rows, .png = nullptr, .info = nullptr, .why = {}, .escape = {}};
+    run(write);
+    png_destroy_write_struct(&write.png, &write.info);
+    return write.why;
+}
+
+Status write_file(const char* path, const Rows& rows) noexcept
 {
     TRY(check_writable_size(path, rows.width, rows.height));
     OutputFile file;
     TRY(file.open(path));
-    PngWrite write{.file = file, .rows = rows, .png = nullptr, .info = nullptr, .why = {}, .escape = {}};
-    run(write);
-    png_destroy_write_struct(&write.png, &write.info);
-    TRY(write.why);
+    TRY(write_rows(file, path, rows));
     return file.commit();
+}
+
+Rows rows_of(ImageView<const Rgb8> picture)
+{
+    return {reinterpret_cast<const std::uint8_t*>(picture.data),
+            picture.stride * static_cast<std::ptrdiff_t>(sizeof(Rgb8)),
+            picture.width,
+            picture.height,
+            8,
+            PNG_COLOR_TYPE_RGB};
 }
 
 } // namespace
 
 Status write_png(const char* path, ImageView<const Rgb8> picture) noexcept
 {
-    return write_rows(path, {reinterpret_cast<const std::uint8_t*>(picture.data),
-                             picture.stride * static_cast<std::ptrdiff_t>(sizeof(Rgb8)), picture.width, picture.height,
-                             8, PNG_COLOR_TYPE_RGB});
+    return write_file(path, rows_of(picture));
+}
+
+Status write_png(ByteSink& sink, const char* name, ImageView<const Rgb8> picture) noexcept
+{
+    return write_rows(sink, name, rows_of(picture));
 }
 
 Status write_png16(const char* path, ImageView<const std::uint16_t> picture) noexcept
 {
-    return write_rows(path, {reinterpret_cast<const std::uint8_t*>(picture.data),
+    return write_file(path, {reinterpret_cast<const std::uint8_t*>(picture.data),
                              picture.stride * static_cast<std::ptrdiff_t>(sizeof(std::uint16_t)), picture.width,
                              picture.height, 16, PNG_COLOR_TYPE_GRAY});
 }

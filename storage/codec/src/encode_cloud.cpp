@@ -136,8 +136,8 @@ private:
 
 Result<CloudProof> prove(const PointCloud& cloud, std::span<const std::byte> file)
 {
-    const CloudOutline outline = TRY(outline_of(file, "the encoded cloud"));
-    if (outline.points != cloud.points.size() || outline.grid != cloud.grid)
+    const Result<CloudOutline> read = outline_of(file, "the encoded cloud");
+    if (!read.ok() || read.value().points != cloud.points.size() || read.value().grid != cloud.grid)
         return failure(Fault::kSoftware, "the encoded cloud is announced as another one: report this");
     CloudProof proof;
     proof.points = static_cast<std::uint32_t>(cloud.points.size());
@@ -148,7 +148,7 @@ Result<CloudProof> prove(const PointCloud& cloud, std::span<const std::byte> fil
         bounds[2] = first.z;
     }
     int confidence_bits = 0;
-    if (!unpack(file, outline, confidence_bits, Comparison(cloud, proof)) || confidence_bits != kConfidenceBits)
+    if (!unpack(file, read.value(), confidence_bits, Comparison(cloud, proof)) || confidence_bits != kConfidenceBits)
         return failure(Fault::kSoftware, "the encoded cloud decodes to another one: report this");
     return proof;
 }

@@ -1,9 +1,9 @@
 #include "rig_reader.h"
 
+#include "dicot/base/utc_time.h"
 #include "rig_quality.h"
 #include "rig_values.h"
 #include "rotation_vector.h"
-#include "utc_time.h"
 
 #include "dicot/os/input_file.h"
 #include "dicot/os/shown_path.h"

@@ -1,6 +1,7 @@
 // Writing a file that is there whole and durable, or not at all.
 #pragma once
 
+#include "dicot/base/byte_sink.h"
 #include "dicot/base/status.h"
 
 #include <climits>
@@ -14,7 +15,7 @@ namespace dicot {
 ///
 /// An existing target stays untouched until commit(), keeps its permissions, and a symbolic link is followed. Devices,
 /// pipes and /dev/stdout are written directly: they cannot be renamed. One OutputFile a target at a time. No heap.
-class OutputFile
+class OutputFile final : public ByteSink
 {
 public:
     static constexpr std::size_t kBufferBytes = std::size_t{16} * 1024;
@@ -28,7 +29,7 @@ public:
     Status open(const char* path) noexcept;
     /// Fault::kIoError: the disk is full, or the device failed. After a failure only the destructor remains to be
     /// called.
-    Status write(std::span<const std::byte> bytes) noexcept;
+    Status write(std::span<const std::byte> bytes) noexcept override;
     Status write(const void* bytes, std::size_t count) noexcept;
     /// What was written so far is on the disk, and still out of sight: several files that belong together are all
     /// synced before the first is committed. Fault::kIoError as for write().

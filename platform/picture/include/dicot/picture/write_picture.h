@@ -1,6 +1,7 @@
 // Writing pictures and maps: whole and durable, or not at all.
 #pragma once
 
+#include "dicot/base/byte_sink.h"
 #include "dicot/base/image.h"
 #include "dicot/base/status.h"
 
@@ -13,10 +14,13 @@ namespace dicot {
 /// Fault::kCannotCreate and kIoError as OutputFile says; the file's name is not looked at for the format.
 /// Pictures are 1 .. kMaxPictureSide (read_picture.h) on a side.
 Status write_png(const char* path, ImageView<const Rgb8> picture) noexcept;
+/// To wherever `sink` leads; `name` stands for it in sentences. Errors: the sink's.
+Status write_png(ByteSink& sink, const char* name, ImageView<const Rgb8> picture) noexcept;
 /// Grey, 16 bits.
 Status write_png16(const char* path, ImageView<const std::uint16_t> picture) noexcept;
 /// Baseline JPEG, 4:2:0, `quality` 1 .. 100.
 Status write_jpeg(const char* path, ImageView<const Rgb8> picture, int quality) noexcept;
+Status write_jpeg(ByteSink& sink, const char* name, ImageView<const Rgb8> picture, int quality) noexcept;
 
 /// A borrowed callable `void(int y, std::span<float> row)` that fills row y, 0 at the top, of a map.
 class RowSource

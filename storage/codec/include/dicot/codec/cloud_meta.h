@@ -1,7 +1,7 @@
 // What a cloud's file says about itself beside its points.
 #pragma once
 
-#include "dicot/codec/short_text.h"
+#include "dicot/base/short_text.h"
 
 #include <cstdint>
 #include <optional>
