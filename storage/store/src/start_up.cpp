@@ -74,6 +74,13 @@ Result<std::int64_t> highest_name(Medium& medium, const char* folder)
     return highest;
 }
 
+/// Also if that cannot be told.
+bool may_have_mark(Medium& medium, const StorePath& folder)
+{
+    EntryKind kind{};
+    return medium.kind_of(join(folder.view(), kPulledMark).c_str(), kind).number() != ENOENT;
+}
+
 } // namespace
 
 Status make_rooms(Medium& medium)
@@ -121,6 +128,7 @@ Result<bool> add_rows(Medium& medium, Catalogue& catalogue, const ReadingDesk& d
                     return {};
                 }
                 ++report.rows_added;
+                all = all && (fresh.value().pulled_us || !may_have_mark(medium, folder));
                 return catalogue.put(fresh.value());
             }
             if (row->began_us != name.began_us)
@@ -129,6 +137,7 @@ Result<bool> add_rows(Medium& medium, Catalogue& catalogue, const ReadingDesk& d
             now.kept = Kept::kHere;
             if (!now.pulled_us)
                 now.pulled_us = pulled_time(medium, folder, now.sums);
+            all = all && (now.pulled_us || !may_have_mark(medium, folder));
             return now == *row ? Status{} : catalogue.put(now);
         }();
         return status.ok();
