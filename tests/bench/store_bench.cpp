@@ -22,7 +22,7 @@
 namespace dicot::bench {
 namespace {
 
-constexpr int kBlock = 500;
+constexpr int kMostInBlock = 500;
 constexpr double kMiB = 1 << 20;
 constexpr double kMostGrowthMiB = 0.5; ///< of the whole process, from the first block to the last
 constexpr double kMostListMs = 100;
@@ -131,8 +131,9 @@ Result<bool> run(const Words& words)
         const std::unique_ptr<Medium> medium = TRY(open_disk_medium(folder));
         const std::unique_ptr<Store> store = TRY(Store::open(*medium, {}, folder + "/" + Store::kCatalogueName));
         std::printf("snapshots  commit ms: median     p99   processor ms  resident MiB  SQLite MiB\n");
-        for (int done = 0; done < words.count; done += kBlock) {
-            blocks.push_back(TRY(store_block(*store, done, std::min(words.count, done + kBlock))));
+        const int together = std::clamp(words.count / 4, 1, kMostInBlock);
+        for (int done = 0; done < words.count; done += together) {
+            blocks.push_back(TRY(store_block(*store, done, std::min(words.count, done + together))));
             const StoreBlock& block = blocks.back();
             std::printf("%9d %18.2f %7.2f %14.2f %13.2f %11.2f\n", block.last, block.commit_median_ms,
                         block.commit_p99_ms, block.cpu_median_ms, block.resident_mib, block.heap_mib);
