@@ -33,13 +33,12 @@ Result<std::int64_t> newest_here(Catalogue& catalogue)
     return newest;
 }
 
-Status let_go(Medium& medium, Catalogue& catalogue, SlotRow row)
+/// The row follows when there is room for it again: finish_leaving().
+Status move_aside(Medium& medium, const SlotRow& row)
 {
     const StorePath from = folder_of(row);
     const StorePath to = join(kLeaving, snapshot_name({row.sequence, row.began_us}).view());
-    TRY(on_card(medium.rename(from.c_str(), to.c_str()), from.c_str(), "renaming"));
-    row.kept = Kept::kPruned;
-    return catalogue.put(row);
+    return on_card(medium.rename(from.c_str(), to.c_str()), from.c_str(), "renaming");
 }
 
 } // namespace
@@ -76,7 +75,7 @@ Result<PruneReport> prune_folders(Medium& medium, Catalogue& catalogue, Prune pr
                     continue;
                 going(row);
                 if (!wish.dry_run)
-                    TRY(let_go(medium, catalogue, row));
+                    TRY(move_aside(medium, row));
                 ++report.removed;
                 report.bytes += static_cast<std::uint64_t>(row.bytes);
             }
