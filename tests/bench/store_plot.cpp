@@ -58,7 +58,8 @@ std::string panel(double top, const std::string& heading, const std::vector<Line
     const auto y_of = [&](double value) { return bottom - kPanelHeight * value / ceiling; };
 
     std::string svg = label(kLeft, top - 10, "start", heading, "#000");
-    for (double value = 0; value <= ceiling + step / 2; value += step) {
+    for (int i = 0; i <= static_cast<int>(std::lround(ceiling / step)); ++i) {
+        const double value = i * step;
         svg += printed("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#ddd\"/>\n", kLeft, y_of(value),
                        kRight, y_of(value));
         svg += label(kLeft - 8, y_of(value) + 4, "end", printed("%g", value));
