@@ -71,8 +71,9 @@ public:
     virtual Errno sync_all() = 0;
     virtual Errno sync_folder(const char* path) = 0;
     virtual Errno space(MediumSpace& space) = 0;
-    /// One writer at a time, until the medium goes: EWOULDBLOCK if another one has it.
+    /// One writer at a time, until unlock(): EWOULDBLOCK if another one has it.
     virtual Errno lock() = 0;
+    virtual void unlock() = 0;
 };
 
 } // namespace dicot

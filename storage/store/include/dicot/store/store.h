@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace dicot {
@@ -46,11 +47,20 @@ struct SlotOutcome
     std::int64_t points = 0;
 };
 
+/// A snapshot that a host has.
+struct Pull
+{
+    std::int64_t sequence = 0;
+    ShortText<64> sums; ///< SHA-256 of its SHA256SUMS, as the host has it
+    std::int64_t pulled_us = 0;
+};
+
 /// What opening the store found and mended.
 struct StartReport
 {
     int finished = 0;           ///< snapshots that were whole when power went, and are now in their place
     int interrupted = 0;        ///< begun and not whole: now recorded as missed
+    int left_over = 0;          ///< begun, and neither of both could be done: the next start tries again
     int rows_added = 0;         ///< folders that the catalogue did not know
     bool catalogue_new = false; ///< it was missing or damaged, and was made again
 };
@@ -127,15 +137,16 @@ public:
         std::uint64_t bytes = 0;
     };
     virtual void for_each_added(FunctionRef<void(const Added&)> visit) const = 0;
-    /// Takes back all that was added: a miss keeps its record alone.
+    /// Takes back all that was added: a miss keeps its record alone, for which a full card gives back the ballast.
     virtual Status take_back() = 0;
-    /// Durable and in its place when it returns. A full card gives back the ballast for a miss.
-    /// Write, sync, rename, sync the folder. Afterwards there is none begun, whatever came out.
+    /// Durable and in its place when it returns. After a failure the snapshot may be taken back and committed as a
+    /// miss; if that fails too, the next begin() or open() records it as interrupted. Fault::kIoError.
     virtual Status commit(const SlotOutcome& outcome) = 0;
 
-    /// A host has this snapshot, and its digests were right. Fault::kNoInput: there is none; kBadData: `sums` is not
-    /// the digest of its SHA256SUMS.
-    virtual Status mark_pulled(std::int64_t sequence, const char* sums, std::int64_t pulled_us) = 0;
+    /// Hosts have these snapshots, and their digests were right. Two syncs, however many they are. Nothing is marked
+    /// after Fault::kNoInput: there is none of this number; kBadData: `sums` is not the digest of its SHA256SUMS.
+    virtual Status mark_pulled(std::span<const Pull> pulls) = 0;
+    /// Deletes as the wish and the rules say, and tells of each before it goes.
     virtual Result<PruneReport> prune(const PruneWish& wish, FunctionRef<void(const SlotRow&)> going) = 0;
     /// Reads and hashes everything. With `repair` damaged folders go to quarantine and the catalogue is made again.
     virtual Result<VerifyReport> verify(bool repair, FunctionRef<void(const Finding&)> found,

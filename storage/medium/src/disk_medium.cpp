@@ -1,0 +1,298 @@
+#include "dicot/medium/disk_medium.h"
+
+#include "folder_walk.h"
+
+#include "dicot/os/shown_path.h"
+
+#include <array>
+#include <cerrno>
+#include <cstddef>
+#include <cstring>
+#include <utility>
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+namespace dicot {
+namespace {
+
+constexpr mode_t kFolderMode = 0755;
+constexpr mode_t kFileMode = 0644;
+
+Errno errno_unless(bool done) noexcept
+{
+    return done ? 0 : errno;
+}
+
+/// A signal is no reason to give up.
+template <typename Call>
+auto until_uninterrupted(Call&& call) noexcept
+{
+    auto result = call();
+    while (result < 0 && errno == EINTR)
+        result = call();
+    return result;
+}
+
+EntryKind kind_of_mode(mode_t mode) noexcept
+{
+    return S_ISREG(mode) ? EntryKind::kFile : S_ISDIR(mode) ? EntryKind::kFolder : EntryKind::kOther;
+}
+
+Errno kind_at(int folder, const char* name, EntryKind& kind) noexcept
+{
+    struct stat what
+    {
+    };
+    if (::fstatat(folder, name, &what, AT_SYMLINK_NOFOLLOW) != 0)
+        return errno;
+    kind = kind_of_mode(what.st_mode);
+    return {};
+}
+
+/// The names in `entries`, `size` bytes as getdents64() gives them. False: the visitor has seen enough.
+bool visit_entries(int folder, const char* entries, std::size_t size, FunctionRef<bool(const MediumEntry&)> visit,
+                   Errno& error)
+{
+    for (std::size_t at = 0; at < size;) {
+        struct dirent64 entry
+        {
+        };
+        std::memcpy(&entry, entries + at, offsetof(struct dirent64, d_name));
+        const char* name = entries + at + offsetof(struct dirent64, d_name);
+        at += entry.d_reclen;
+        if (std::strcmp(name, ".") == 0 || std::strcmp(name, "..") == 0)
+            continue;
+        EntryKind kind = entry.d_type == DT_REG   ? EntryKind::kFile
+                         : entry.d_type == DT_DIR ? EntryKind::kFolder
+                                                  : EntryKind::kOther;
+        if (entry.d_type == DT_UNKNOWN)
+            error = kind_at(folder, name, kind);
+        if (!error.ok() || !visit({name, kind}))
+            return false;
+    }
+    return true;
+}
+
+class DiskMedium final : public Medium
+{
+public:
+    explicit DiskMedium(Descriptor root) noexcept : root_(std::move(root)) {}
+
+    Errno make_folder(const char* path) override
+    {
+        Place place;
+        const Errno found = find(path, place);
+        return found.ok() ? errno_unless(::mkdirat(place.folder.number(), place.name, kFolderMode) == 0) : found;
+    }
+    Errno rename(const char* from, const char* to) override;
+    Errno remove_file(const char* path) override { return remove(path, 0); }
+    Errno remove_folder(const char* path) override { return remove(path, AT_REMOVEDIR); }
+    Errno kind_of(const char* path, EntryKind& kind) override;
+    Errno list(const char* path, FunctionRef<bool(const MediumEntry&)> visit) override;
+
+    Errno create(const char* path, File& file) override;
+    Errno write(File file, std::span<const std::byte> bytes) override;
+    Errno open(const char* path, File& file, std::uint64_t& size_bytes) override;
+    Errno read(File file, std::span<std::byte> into, std::size_t& got) override;
+    Errno close(File file) override;
+
+    Errno sync_all() override
+    {
+        return errno_unless(until_uninterrupted([&] { return ::syncfs(root_.number()); }) == 0);
+    }
+    Errno sync_folder(const char* path) override;
+    Errno space(MediumSpace& space) override;
+    Errno lock() override { return errno_unless(::flock(root_.number(), LOCK_EX | LOCK_NB) == 0); }
+
+private:
+    static constexpr std::size_t kMostOpen = 8;
+
+    Errno find(const char* path, Place& place) const noexcept { return find_place(root_.number(), path, place); }
+    Errno remove(const char* path, int flags) const noexcept;
+    Errno keep(Descriptor opened, File& file) noexcept;
+    int number_of(File file) const noexcept;
+
+    Descriptor root_;
+    std::array<Descriptor, kMostOpen> files_;
+};
+
+Errno DiskMedium::rename(const char* from, const char* to)
+{
+    Place old_place, new_place;
+    if (const Errno error = find(from, old_place); !error.ok())
+        return error;
+    if (const Errno error = find(to, new_place); !error.ok())
+        return error;
+    const int old_folder = old_place.folder.number();
+    const int new_folder = new_place.folder.number();
+    if (::renameat2(old_folder, old_place.name, new_folder, new_place.name, RENAME_NOREPLACE) == 0)
+        return {};
+    if (errno != EINVAL && errno != ENOSYS)
+        return errno;
+    // A file system that cannot tell whether it would replace something is asked before: one writer at a time.
+    EntryKind kind{};
+    const Errno there = kind_at(new_folder, new_place.name, kind);
+    if (there.number() != ENOENT)
+        return there.ok() ? EEXIST : there.number();
+    return errno_unless(::renameat(old_folder, old_place.name, new_folder, new_place.name) == 0);
+}
+
+Errno DiskMedium::remove(const char* path, int flags) const noexcept
+{
+    Place place;
+    const Errno found = find(path, place);
+    return found.ok() ? errno_unless(::unlinkat(place.folder.number(), place.name, flags) == 0) : found;
+}
+
+Errno DiskMedium::kind_of(const char* path, EntryKind& kind)
+{
+    if (*path == '\0') {
+        kind = EntryKind::kFolder;
+        return {};
+    }
+    Place place;
+    const Errno found = find(path, place);
+    return found.ok() ? kind_at(place.folder.number(), place.name, kind) : found;
+}
+
+Errno DiskMedium::list(const char* path, FunctionRef<bool(const MediumEntry&)> visit)
+{
+    Descriptor folder;
+    Errno error = open_folder(root_.number(), path, folder);
+    // opendir() would take memory from the heap.
+    char entries[4096];
+    bool more = error.ok();
+    while (more) {
+        const ssize_t size = ::getdents64(folder.number(), entries, sizeof entries);
+        if (size < 0)
+            return errno;
+        more = size > 0 && visit_entries(folder.number(), entries, static_cast<std::size_t>(size), visit, error);
+    }
+    return error;
+}
+
+Errno DiskMedium::keep(Descriptor opened, File& file) noexcept
+{
+    if (!opened.ok())
+        return errno;
+    for (std::size_t k = 0; k < files_.size(); ++k) {
+        if (files_[k].ok())
+            continue;
+        files_[k] = std::move(opened);
+        file = static_cast<File>(k);
+        return {};
+    }
+    return EMFILE;
+}
+
+int DiskMedium::number_of(File file) const noexcept
+{
+    const auto k = static_cast<std::size_t>(file);
+    return file >= 0 && k < files_.size() ? files_[k].number() : -1; // the system calls it EBADF
+}
+
+Errno DiskMedium::create(const char* path, File& file)
+{
+    Place place;
+    if (const Errno error = find(path, place); !error.ok())
+        return error;
+    constexpr int kFlags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+    return keep(Descriptor{::openat(place.folder.number(), place.name, kFlags, kFileMode)}, file);
+}
+
+Errno DiskMedium::write(File file, std::span<const std::byte> bytes)
+{
+    while (!bytes.empty()) {
+        const ssize_t written =
+            until_uninterrupted([&] { return ::write(number_of(file), bytes.data(), bytes.size()); });
+        if (written <= 0)
+            return written < 0 ? errno : EIO;
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+    return {};
+}
+
+Errno DiskMedium::open(const char* path, File& file, std::uint64_t& size_bytes)
+{
+    Place place;
+    if (const Errno error = find(path, place); !error.ok())
+        return error;
+    // Asked before it is opened: to open a device may already start something.
+    EntryKind kind{};
+    if (const Errno error = kind_at(place.folder.number(), place.name, kind); !error.ok())
+        return error;
+    if (kind != EntryKind::kFile)
+        return kind == EntryKind::kFolder ? EISDIR : EINVAL;
+    constexpr int kFlags = O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
+    Descriptor opened{::openat(place.folder.number(), place.name, kFlags)};
+    struct stat what
+    {
+    };
+    if (!opened.ok() || ::fstat(opened.number(), &what) != 0)
+        return errno;
+    size_bytes = static_cast<std::uint64_t>(what.st_size);
+    return S_ISREG(what.st_mode) ? keep(std::move(opened), file) : EINVAL;
+}
+
+Errno DiskMedium::read(File file, std::span<std::byte> into, std::size_t& got)
+{
+    got = 0;
+    while (got < into.size()) {
+        const ssize_t more =
+            until_uninterrupted([&] { return ::read(number_of(file), into.data() + got, into.size() - got); });
+        if (more < 0)
+            return errno;
+        if (more == 0)
+            break;
+        got += static_cast<std::size_t>(more);
+    }
+    return {};
+}
+
+Errno DiskMedium::close(File file)
+{
+    if (number_of(file) < 0)
+        return EBADF;
+    // Linux lets the descriptor go whatever it answers.
+    const int number = files_[static_cast<std::size_t>(file)].release();
+    return errno_unless(::close(number) == 0 || errno == EINTR);
+}
+
+Errno DiskMedium::sync_folder(const char* path)
+{
+    Descriptor folder;
+    if (const Errno error = open_folder(root_.number(), path, folder); !error.ok())
+        return error;
+    const bool synced = until_uninterrupted([&] { return ::fsync(folder.number()); }) == 0;
+    return errno_unless(synced || errno == EINVAL); // some file systems know no such thing
+}
+
+Errno DiskMedium::space(MediumSpace& space)
+{
+    struct statvfs card
+    {
+    };
+    if (::fstatvfs(root_.number(), &card) != 0)
+        return errno;
+    space.total_bytes = std::uint64_t{card.f_blocks} * card.f_frsize;
+    space.free_bytes = std::uint64_t{card.f_bavail} * card.f_frsize;
+    return {};
+}
+
+} // namespace
+
+Result<std::unique_ptr<Medium>> open_disk_medium(const std::string& path)
+{
+    Descriptor root{::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
+    if (!root.ok())
+        return failure(Fault::kNoInput, "%s: cannot be opened as a folder (%s); check the path",
+                       shown_path(path.c_str()), strerrordesc_np(errno));
+    return std::unique_ptr<Medium>{std::make_unique<DiskMedium>(std::move(root))};
+}
+
+} // namespace dicot

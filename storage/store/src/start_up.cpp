@@ -1,0 +1,204 @@
+#include "start_up.h"
+
+#include "incoming.h"
+
+#include "dicot/os/shown_path.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+
+namespace dicot {
+namespace {
+
+constexpr const char* kInterrupted = "interrupted: the power went, or dicot was ended, before the snapshot was stored";
+constexpr std::size_t kMostLeftOvers = 64;
+constexpr std::uint64_t kBallastBytes = 256 * 1024;
+
+/// A record that says no more than the folder's name does.
+Status settle_interrupted(Medium& medium, const SnapshotName& name)
+{
+    Incoming incoming(medium);
+    incoming.adopt(name, false);
+    TRY(incoming.take_back());
+    RecordFacts facts;
+    facts.sequence = name.sequence;
+    facts.began_us = name.began_us;
+    facts.reason = kInterrupted;
+    facts.clock_trust = "unknown";
+    std::array<char, 1024> text{};
+    const std::size_t bytes = write_plain_record(facts, "dicot", text);
+    TRY(incoming.add(kRecord, [&](ByteSink& sink) { return sink.write(std::as_bytes(std::span(text).first(bytes))); }));
+    return incoming.settle().status();
+}
+
+Status settle_whole(Medium& medium, const SnapshotName& name)
+{
+    Incoming incoming(medium);
+    incoming.adopt(name, true);
+    return incoming.settle().status();
+}
+
+Status end_one(Medium& medium, Catalogue& catalogue, const StorePath& leaf, const ReadingDesk& desk,
+               StartReport& report)
+{
+    const StorePath part = join(kIncoming, leaf.view());
+    const auto name = parse_snapshot_name(leaf.view());
+    if (!name) {
+        if (leaf.view().starts_with(kPulled)) // a mark that did not get to its place
+            return on_card(medium.remove_file(part.c_str()), part.c_str(), "removing it");
+        return quarantine(medium, part);
+    }
+    const StorePath target = folder_of(name->sequence, name->began_us).view();
+    if (is_there(medium, target.c_str()))
+        return quarantine(medium, part);
+    const bool whole = is_whole(medium, part, *name, desk);
+    const Status status = whole ? settle_whole(medium, *name) : settle_interrupted(medium, *name);
+    if (!status.ok())
+        return status.fault() == Fault::kBadData ? quarantine(medium, part) : status;
+    ++(whole ? report.finished : report.interrupted);
+    return catalogue.put(TRY(row_of(medium, target, *name, desk)));
+}
+
+std::int64_t highest_name(Medium& medium, const char* folder)
+{
+    std::int64_t highest = 0;
+    (void)medium.list(folder, [&](const MediumEntry& entry) {
+        // In quarantine names may have got an end.
+        if (const auto name = parse_snapshot_name(entry.name.substr(0, entry.name.find('.'))))
+            highest = std::max(highest, name->sequence);
+        return true;
+    });
+    return highest;
+}
+
+} // namespace
+
+Status make_rooms(Medium& medium)
+{
+    bool any_new = false;
+    for (const char* const room : {kIncoming, kLeaving, kQuarantine}) {
+        if (is_there(medium, room))
+            continue;
+        any_new = true;
+        TRY(make_folder(medium, room));
+    }
+    return any_new ? on_card(medium.sync_all(), "", "syncing") : Status{};
+}
+
+Result<std::unique_ptr<Catalogue>> open_catalogue(Medium& medium, const std::string& path, const char* vfs,
+                                                  StartReport& report)
+{
+    report.catalogue_new = !is_there(medium, Store::kCatalogueName);
+    auto opened = Catalogue::open(path, Catalogue::Access::kWrite, vfs);
+    if (opened.ok() || opened.status().fault() != Fault::kBadData)
+        return opened;
+    for (const char* const end : {"", "-wal", "-shm"}) {
+        const StorePath file = (std::string(Store::kCatalogueName) + end).c_str();
+        if (is_there(medium, file.c_str()))
+            TRY(quarantine(medium, file));
+    }
+    report.catalogue_new = true;
+    return Catalogue::open(path, Catalogue::Access::kWrite, vfs);
+}
+
+Status add_rows(Medium& medium, Catalogue& catalogue, const ReadingDesk& desk, StartReport& report)
+{
+    TRY(catalogue.begin());
+    Status status;
+    const Status walked = for_each_folder(medium, [&](const StorePath& folder, const SnapshotName& name) {
+        status = [&]() -> Status {
+            std::optional<SlotRow> row = TRY(catalogue.find(name.sequence));
+            if (!row) {
+                const Result<SlotRow> fresh = row_of(medium, folder, name, desk);
+                if (!fresh.ok()) // damaged: verify names it
+                    return {};
+                ++report.rows_added;
+                return catalogue.put(fresh.value());
+            }
+            if (row->began_us != name.began_us)
+                return {};
+            SlotRow now = *row;
+            now.kept = Kept::kHere;
+            if (!now.pulled_us)
+                now.pulled_us = pulled_time(medium, folder, now.sums);
+            return now == *row ? Status{} : catalogue.put(now);
+        }();
+        return status.ok();
+    });
+    TRY(status);
+    TRY(walked);
+    return catalogue.commit();
+}
+
+Status end_interrupted(Medium& medium, Catalogue& catalogue, const ReadingDesk& desk, StartReport& report)
+{
+    std::array<StorePath, kMostLeftOvers> names;
+    std::size_t count = 0;
+    const Errno listed = medium.list(kIncoming, [&](const MediumEntry& entry) {
+        names[count++] = entry.name;
+        return count < kMostLeftOvers;
+    });
+    TRY(on_card(listed, kIncoming, "listing it"));
+    std::sort(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(count),
+              [](const StorePath& a, const StorePath& b) { return a.view() < b.view(); });
+    for (std::size_t i = 0; i < count; ++i)
+        if (!end_one(medium, catalogue, names[i], desk, report).ok())
+            ++report.left_over;
+    return {};
+}
+
+Result<std::int64_t> last_sequence_of(Medium& medium, Catalogue& catalogue)
+{
+    std::int64_t last = TRY(catalogue.last_sequence());
+    for (const char* const folder : {kIncoming, kLeaving, kQuarantine})
+        last = std::max(last, highest_name(medium, folder));
+    return last;
+}
+
+Status quarantine(Medium& medium, const StorePath& path)
+{
+    constexpr int kMostNames = 1000;
+    const std::size_t slash = path.view().rfind('/');
+    const std::string_view leaf = slash == std::string_view::npos ? path.view() : path.view().substr(slash + 1);
+    StorePath target = join(kQuarantine, leaf);
+    Errno moved = EEXIST;
+    for (int k = 2; k < kMostNames; ++k) {
+        moved = medium.rename(path.c_str(), target.c_str());
+        if (moved.number() != EEXIST)
+            break;
+        char end[16];
+        std::snprintf(end, sizeof end, ".%d", k);
+        target = (std::string(join(kQuarantine, leaf).view()) + end).c_str();
+    }
+    return on_card(moved, path.c_str(), "moving it to quarantine");
+}
+
+int count_quarantine(Medium& medium)
+{
+    int count = 0;
+    (void)medium.list(kQuarantine, [&](const MediumEntry&) { return ++count, true; });
+    return count;
+}
+
+void keep_ballast(Medium& medium, std::uint64_t reserve_bytes)
+{
+    MediumSpace space;
+    if (is_there(medium, kBallast) || !medium.space(space).ok() || space.free_bytes < reserve_bytes + 4 * kBallastBytes)
+        return;
+    const std::array<std::byte, 16 * 1024> zeros{};
+    CardFile file(medium);
+    Status status = file.create(kBallast);
+    for (std::uint64_t bytes = 0; status.ok() && bytes < kBallastBytes; bytes += zeros.size())
+        status = file.write(zeros);
+    if (!status.ok())
+        (void)medium.remove_file(kBallast);
+}
+
+bool release_ballast(Medium& medium)
+{
+    return medium.remove_file(kBallast).ok();
+}
+
+} // namespace dicot

@@ -1,0 +1,284 @@
+#include "dicot/store/store.h"
+
+#include "card.h"
+#include "incoming.h"
+#include "leaving.h"
+#include "pulled_mark.h"
+#include "snapshot_folder.h"
+#include "start_up.h"
+#include "verify.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <utility>
+
+namespace dicot {
+namespace {
+
+constexpr std::uint64_t kLeastSnapshotBytes = std::uint64_t{4} << 20; ///< while nothing is known of their size
+constexpr std::uint64_t kRoomForSnapshots = 8; ///< as many are let go at once, so that one sync serves them all
+constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
+
+class CardStore final : public Store
+{
+public:
+    CardStore(Medium& medium, const StoreRules& rules, ReadingDesk desk)
+        : medium_(medium), rules_(rules), desk_(std::move(desk)), incoming_(medium)
+    {
+    }
+    ~CardStore() override;
+
+    Status start(const std::string& catalogue, const char* vfs);
+
+    const StartReport& start_report() const override { return report_; }
+    Catalogue& catalogue() override { return *catalogue_; }
+    Status begin(const SlotTime& time) override;
+    std::int64_t sequence() const override { return last_; }
+    const char* folder() const override { return incoming_.target().c_str(); }
+    Status make_room() override;
+    Status add(const char* name, FunctionRef<Status(ByteSink&)> fill) override { return incoming_.add(name, fill); }
+    void for_each_added(FunctionRef<void(const Added&)> visit) const override { incoming_.for_each_added(visit); }
+    Status take_back() override;
+    Status commit(const SlotOutcome& outcome) override;
+    Status mark_pulled(std::span<const Pull> pulls) override;
+    Result<PruneReport> prune(const PruneWish& wish, FunctionRef<void(const SlotRow&)> going) override
+    {
+        return prune_folders(medium_, *catalogue_, rules_.prune, wish, going);
+    }
+    Result<VerifyReport> verify(bool repair, FunctionRef<void(const Finding&)> found,
+                                FunctionRef<void(int, int)> progress) override;
+
+private:
+    Result<std::uint64_t> bytes_wanted();
+    Status open_catalogue_and_rows(const std::string& path, const char* vfs, bool was_interrupted);
+
+    Medium& medium_;
+    StoreRules rules_;
+    ReadingDesk desk_;
+    Incoming incoming_;
+    std::unique_ptr<Catalogue> catalogue_;
+    std::string catalogue_path_;
+    const char* vfs_ = nullptr;
+    StartReport report_;
+    SlotTime time_;
+    std::int64_t last_ = 0;
+};
+
+CardStore::~CardStore()
+{
+    // Only rows that last let the next start go without a look at all folders.
+    if (catalogue_ != nullptr && catalogue_->sync().ok())
+        (void)medium_.remove_file(kWriting);
+    catalogue_.reset();
+    medium_.unlock();
+}
+
+/// Whether another process ended, or the power went, while it wrote.
+bool mark_writing(Medium& medium)
+{
+    if (is_there(medium, kWriting))
+        return true;
+    // A card that is full up to this is no reason not to start: pruning may help.
+    if (!write_file(medium, kWriting, {}).ok() && release_ballast(medium))
+        (void)write_file(medium, kWriting, {}).ok();
+    return false;
+}
+
+Status CardStore::start(const std::string& path, const char* vfs)
+{
+    const Errno locked = medium_.lock();
+    if (locked.number() == EWOULDBLOCK)
+        return failure(Fault::kTryAgain, "another dicot writes to this store; wait until it has finished");
+    TRY(on_card(locked, "", "locking it"));
+    if (!make_rooms(medium_).ok() && release_ballast(medium_))
+        TRY(make_rooms(medium_));
+    TRY(make_rooms(medium_));
+    TRY(open_catalogue_and_rows(path, vfs, mark_writing(medium_)));
+    TRY(finish_leaving(medium_, *catalogue_));
+    last_ = TRY(last_sequence_of(medium_, *catalogue_));
+    TRY(end_interrupted(medium_, *catalogue_, desk_, report_));
+    keep_ballast(medium_, rules_.reserve_bytes);
+    return {};
+}
+
+Status CardStore::open_catalogue_and_rows(const std::string& path, const char* vfs, bool was_interrupted)
+{
+    catalogue_path_ = path;
+    vfs_ = vfs;
+    auto opened = open_catalogue(medium_, path, vfs, report_);
+    if (!opened.ok() && release_ballast(medium_))
+        opened = open_catalogue(medium_, path, vfs, report_);
+    catalogue_ = TRY(std::move(opened));
+    return was_interrupted || report_.catalogue_new ? add_rows(medium_, *catalogue_, desk_, report_) : Status{};
+}
+
+Status CardStore::begin(const SlotTime& time)
+{
+    if (incoming_.begun())
+        TRY(end_interrupted(medium_, *catalogue_, desk_, report_));
+    if (last_ >= kMaxSequence)
+        return failure(Fault::kBadData, "the sequence numbers have come to their end at %lld; begin a new store",
+                       static_cast<long long>(last_));
+    constexpr std::int64_t kSecondUs = 1'000'000;
+    time_ = time;
+    time_.began_us = std::clamp(time.began_us, kFirstUtcUs, kLastUtcUs);
+    time_.began_us -= ((time_.began_us % kSecondUs) + kSecondUs) % kSecondUs;
+    ++last_; // whatever comes out: the folder may be there although it could not be said
+    const SnapshotName name{last_, time_.began_us};
+    Status status = incoming_.begin(name);
+    if (!status.ok() && !incoming_.begun() && release_ballast(medium_))
+        status = incoming_.begin(name);
+    return status;
+}
+
+Result<std::uint64_t> CardStore::bytes_wanted()
+{
+    const SlotPace pace = TRY(catalogue_->pace());
+    const auto most = static_cast<std::uint64_t>(std::max<std::int64_t>(pace.most_bytes, 0));
+    return most > 0 ? most + most / 4 : kLeastSnapshotBytes;
+}
+
+Status CardStore::make_room()
+{
+    const std::uint64_t wanted = TRY(bytes_wanted());
+    MediumSpace space;
+    TRY(on_card(medium_.space(space), "", "asking for its free space"));
+    if (space.free_bytes >= rules_.reserve_bytes + wanted)
+        return {};
+    PruneWish wish;
+    wish.free_bytes = rules_.reserve_bytes + kRoomForSnapshots * wanted;
+    TRY(prune(wish, [](const SlotRow&) {}));
+    TRY(on_card(medium_.space(space), "", "asking for its free space"));
+    if (space.free_bytes >= rules_.reserve_bytes + wanted)
+        return {};
+    return failure(
+        Fault::kIoError,
+        "the card is full: %.1f MiB are free, %.1f are left to the system (output.reserve_mib) and a snapshot "
+        "needs %.1f; %s",
+        static_cast<double>(space.free_bytes) / kMiB, static_cast<double>(rules_.reserve_bytes) / kMiB,
+        static_cast<double>(wanted) / kMiB,
+        rules_.prune == Prune::kNever    ? "delete snapshots, or let dicot do it (output.prune)"
+        : rules_.prune == Prune::kPulled ? "pull snapshots, then those pulled are deleted"
+                                         : "take a larger card");
+}
+
+Status CardStore::take_back()
+{
+    TRY(incoming_.take_back());
+    constexpr std::uint64_t kRecordRoom = 64 * 1024;
+    MediumSpace space;
+    if (medium_.space(space).ok() && space.free_bytes < kRecordRoom)
+        (void)release_ballast(medium_);
+    return {};
+}
+
+Status CardStore::commit(const SlotOutcome& outcome)
+{
+    const Incoming::Settled settled = TRY(incoming_.settle());
+    TRY(catalogue_->put({.sequence = last_,
+                         .began_us = time_.began_us,
+                         .due_us = time_.due_us,
+                         .done = outcome.done,
+                         .reason = outcome.reason,
+                         .clock_trust = outcome.clock_trust,
+                         .points = outcome.points,
+                         .bytes = settled.bytes,
+                         .sums = settled.sums,
+                         .pulled_us = {},
+                         .kept = Kept::kHere}));
+    keep_ballast(medium_, rules_.reserve_bytes);
+    return {};
+}
+
+Status CardStore::mark_pulled(std::span<const Pull> pulls)
+{
+    const auto part_of = [](const SlotRow& row) {
+        return join(kIncoming, std::string(kPulled) + "-" + std::to_string(row.sequence));
+    };
+    const auto row_of_pull = [&](const Pull& pull) -> Result<SlotRow> {
+        const auto row = TRY(catalogue_->find(pull.sequence));
+        if (!row || row->kept != Kept::kHere)
+            return failure(Fault::kNoInput, "there is no snapshot %lld", static_cast<long long>(pull.sequence));
+        if (row->sums != pull.sums)
+            return failure(Fault::kBadData,
+                           "snapshot %lld has other digests than those that the host has; pull it again",
+                           static_cast<long long>(pull.sequence));
+        return *row;
+    };
+    for (const Pull& pull : pulls)
+        TRY(row_of_pull(pull));
+    for (const Pull& pull : pulls) {
+        const StorePath part = part_of(TRY(row_of_pull(pull)));
+        (void)medium_.remove_file(part.c_str());
+        const PulledText text = print_pulled({pull.pulled_us, pull.sums});
+        TRY(write_file(medium_, part, std::as_bytes(std::span(text.view()))));
+    }
+    TRY(on_card(medium_.sync_all(), kIncoming, "syncing"));
+    for (const Pull& pull : pulls) {
+        const SlotRow row = TRY(row_of_pull(pull));
+        const StorePath target = join(folder_of(row.sequence, row.began_us).view(), kPulled);
+        const Errno moved = medium_.rename(part_of(row).c_str(), target.c_str());
+        if (moved.number() == EEXIST) // an earlier pull stands
+            (void)medium_.remove_file(part_of(row).c_str());
+        else
+            TRY(on_card(moved, target.c_str(), "renaming"));
+    }
+    TRY(on_card(medium_.sync_all(), "", "syncing"));
+    for (const Pull& pull : pulls) {
+        SlotRow row = TRY(row_of_pull(pull));
+        row.pulled_us = pulled_time(medium_, folder_of(row.sequence, row.began_us).view(), row.sums);
+        TRY(catalogue_->put(row));
+    }
+    return {};
+}
+
+Result<VerifyReport> CardStore::verify(bool repair, FunctionRef<void(const Finding&)> found,
+                                       FunctionRef<void(int, int)> progress)
+{
+    if (repair && !catalogue_->check().ok()) {
+        catalogue_.reset();
+        TRY(quarantine(medium_, kCatalogueName));
+        TRY(open_catalogue_and_rows(catalogue_path_, vfs_, true));
+    }
+    return verify_folders(medium_, *catalogue_, desk_, repair ? Verify::kAndRepair : Verify::kOwn, found, progress);
+}
+
+} // namespace
+
+Result<std::unique_ptr<Store>> Store::open(Medium& medium, const StoreRules& rules, const std::string& catalogue,
+                                           const char* vfs)
+{
+    auto store = std::make_unique<CardStore>(medium, rules, TRY(ReadingDesk::make()));
+    TRY(store->start(catalogue, vfs));
+    return std::unique_ptr<Store>(std::move(store));
+}
+
+Result<std::unique_ptr<Catalogue>> read_catalogue(Medium& medium, const std::string& path)
+{
+    auto opened = Catalogue::open(path, Catalogue::Access::kRead);
+    // Rows may be missing where a writer was interrupted; while one writes they are there.
+    if (opened.ok() && (!is_there(medium, kWriting) || is_written_to(medium)))
+        return opened;
+    auto copy = TRY(Catalogue::open(":memory:", Catalogue::Access::kWrite));
+    const ReadingDesk desk = TRY(ReadingDesk::make());
+    StartReport report;
+    TRY(add_rows(medium, *copy, desk, report));
+    return copy;
+}
+
+Result<VerifyReport> verify_store(Medium& medium, const std::string& path, FunctionRef<void(const Finding&)> found,
+                                  FunctionRef<void(int, int)> progress)
+{
+    const std::unique_ptr<Catalogue> catalogue = TRY(read_catalogue(medium, path));
+    VerifyReport report =
+        TRY(verify_folders(medium, *catalogue, TRY(ReadingDesk::make()), Verify::kOnly, found, progress));
+    // The rows were then made of the folders.
+    const auto opened = Catalogue::open(path, Catalogue::Access::kRead);
+    if (!opened.ok() && opened.status().fault() == Fault::kBadData) {
+        ++report.findings;
+        found({Finding::Kind::kCatalogue, 0, Store::kCatalogueName, opened.status().message(), false});
+    }
+    return report;
+}
+
+} // namespace dicot

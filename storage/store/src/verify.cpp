@@ -1,0 +1,288 @@
+#include "verify.h"
+
+#include "pulled_mark.h"
+#include "start_up.h"
+
+#include "dicot/base/utc_time.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace dicot {
+namespace {
+
+class Verifier
+{
+public:
+    Verifier(Medium& medium, Catalogue& catalogue, const ReadingDesk& desk, Verify how,
+             FunctionRef<void(const Finding&)> found)
+        : medium_(medium), catalogue_(catalogue), desk_(desk), how_(how), found_(found)
+    {
+    }
+
+    Result<VerifyReport> run(FunctionRef<void(int, int)> progress);
+
+private:
+    using Kind = Finding::Kind;
+
+    bool repairs() const { return how_ == Verify::kAndRepair; }
+    void find(Kind kind, std::int64_t sequence, const StorePath& path, const char* sentence, bool mended = false);
+    Status look_at_root();
+    Status list_day(const StorePath& day);
+    /// Whether the folder is as it was stored.
+    Result<bool> check_folder(const StorePath& folder, const SnapshotName& name);
+    void check_pulled(const StorePath& folder, const SnapshotName& name, const ShortText<64>& sums);
+    Status look_for_strangers(const StorePath& folder, const SnapshotName& name, const Sums& sums);
+    Status compare_row(const StorePath& folder, const SnapshotName& name);
+    Status take_away(const StorePath& folder, const SnapshotName& name);
+    Status look_for_lost();
+    Status look_for_left_overs();
+
+    Medium& medium_;
+    Catalogue& catalogue_;
+    const ReadingDesk& desk_;
+    Verify how_;
+    FunctionRef<void(const Finding&)> found_;
+    VerifyReport report_;
+    std::vector<SnapshotName> names_; ///< ascending
+};
+
+void Verifier::find(Kind kind, std::int64_t sequence, const StorePath& path, const char* sentence, bool mended)
+{
+    ++report_.findings;
+    report_.mended += mended ? 1 : 0;
+    found_({kind, sequence, path.c_str(), sentence, mended});
+}
+
+/// What the store makes beside the days.
+bool is_known(const MediumEntry& entry)
+{
+    if (entry.kind == EntryKind::kFolder)
+        return entry.name == kIncoming || entry.name == kLeaving || entry.name == kQuarantine;
+    const std::string_view catalogue = Store::kCatalogueName;
+    return entry.kind == EntryKind::kFile &&
+           (entry.name == kBallast || entry.name == kWriting ||
+            (entry.name.starts_with(catalogue) &&
+             (entry.name.size() == catalogue.size() || entry.name.substr(catalogue.size()) == "-wal" ||
+              entry.name.substr(catalogue.size()) == "-shm" || entry.name.substr(catalogue.size()) == "-journal")));
+}
+
+Status Verifier::look_at_root()
+{
+    std::vector<std::string> days;
+    TRY(on_card(medium_.list("",
+                             [&](const MediumEntry& entry) {
+                                 if (entry.kind == EntryKind::kFolder && is_day_name(entry.name))
+                                     days.emplace_back(entry.name);
+                                 else if (!is_known(entry) && entry.name != "lost+found")
+                                     find(Kind::kStranger, 0, entry.name, "dicot did not make it");
+                                 return true;
+                             }),
+                "", "listing it"));
+    for (const std::string& day : days)
+        TRY(list_day(day.c_str()));
+    std::sort(names_.begin(), names_.end(), [](const SnapshotName& a, const SnapshotName& b) {
+        return a.sequence != b.sequence ? a.sequence < b.sequence : a.began_us < b.began_us;
+    });
+    return {};
+}
+
+Status Verifier::list_day(const StorePath& day)
+{
+    const Errno listed = medium_.list(day.c_str(), [&](const MediumEntry& entry) {
+        const auto name = parse_snapshot_name(entry.name);
+        if (entry.kind == EntryKind::kFolder && name && utc_day(name->began_us).view() == day.view())
+            names_.push_back(*name);
+        else
+            find(Kind::kStranger, 0, join(day.view(), entry.name), "dicot did not make it");
+        return true;
+    });
+    return on_card(listed, day.c_str(), "listing it");
+}
+
+Result<bool> Verifier::check_folder(const StorePath& folder, const SnapshotName& name)
+{
+    const Result<ReadSums> read = read_sums(medium_, folder);
+    const StorePath sums_path = join(folder.view(), kSums);
+    if (!read.ok()) {
+        const bool there = is_there(medium_, sums_path.c_str());
+        find(there ? Kind::kDamaged : Kind::kMissing, name.sequence, sums_path,
+             there ? read.status().message() : "it is not there");
+        return false;
+    }
+    const ReadSums& sums = read.value();
+    const std::optional<SlotRow> row = TRY(catalogue_.find(name.sequence));
+    bool whole = true;
+    for (const Sum& sum : sums.sums.all()) {
+        const StorePath path = join(folder.view(), sum.name.view());
+        const Status status = check_file(medium_, folder, sum, desk_, report_.bytes);
+        if (status.ok())
+            continue;
+        whole = false;
+        const bool there = is_there(medium_, path.c_str());
+        // A digest that does not fit may be wrong itself: then the catalogue has another one of SHA256SUMS.
+        if (there && status.fault() == Fault::kBadData && row && !row->sums.empty() && row->sums != sums.sha256)
+            find(Kind::kDamaged, name.sequence, sums_path, "its bytes are not those that were stored");
+        else
+            find(there ? Kind::kDamaged : Kind::kMissing, name.sequence, path,
+                 there ? status.message() : "it is not there");
+    }
+    if (whole) {
+        const Result<SlotRow> facts = row_of(medium_, folder, name, desk_);
+        whole = facts.ok();
+        if (!whole)
+            find(Kind::kDamaged, name.sequence, join(folder.view(), kRecord), facts.status().message());
+    }
+    TRY(look_for_strangers(folder, name, sums.sums));
+    if (whole)
+        check_pulled(folder, name, sums.sha256);
+    return whole;
+}
+
+void Verifier::check_pulled(const StorePath& folder, const SnapshotName& name, const ShortText<64>& sums)
+{
+    const StorePath path = join(folder.view(), kPulled);
+    if (!is_there(medium_, path.c_str()) || pulled_time(medium_, folder, sums))
+        return;
+    const bool mended = repairs() && medium_.remove_file(path.c_str()).ok();
+    find(Kind::kDamaged, name.sequence, path, "the mark of a pull is damaged; the snapshot counts as not pulled",
+         mended);
+}
+
+Status Verifier::look_for_strangers(const StorePath& folder, const SnapshotName& name, const Sums& sums)
+{
+    const Errno listed = medium_.list(folder.c_str(), [&](const MediumEntry& entry) {
+        if (entry.kind != EntryKind::kFile ||
+            (entry.name != kSums && entry.name != kPulled && sums.find(entry.name) == nullptr))
+            find(Kind::kStranger, name.sequence, join(folder.view(), entry.name), "SHA256SUMS does not have it");
+        return true;
+    });
+    return on_card(listed, folder.c_str(), "listing it");
+}
+
+Status Verifier::compare_row(const StorePath& folder, const SnapshotName& name)
+{
+    const std::optional<SlotRow> row = TRY(catalogue_.find(name.sequence));
+    const SlotRow facts = TRY(row_of(medium_, folder, name, desk_));
+    if (row && *row == facts)
+        return {};
+    if (repairs())
+        TRY(catalogue_.put(facts));
+    find(Kind::kCatalogue, name.sequence, folder,
+         row ? "the catalogue has something else than the folder" : "the catalogue does not have it", repairs());
+    return {};
+}
+
+Status Verifier::take_away(const StorePath& folder, const SnapshotName& name)
+{
+    TRY(quarantine(medium_, folder));
+    ++report_.mended;
+    (void)medium_.remove_folder(utc_day(name.began_us).c_str()); // if it was the last one of its day
+    std::optional<SlotRow> row = TRY(catalogue_.find(name.sequence));
+    if (row && row->began_us != name.began_us)
+        return {};
+    SlotRow moved = row.value_or(SlotRow{.sequence = name.sequence, .began_us = name.began_us});
+    if (!row)
+        moved.reason = "damaged, and the catalogue did not have it";
+    moved.kept = Kept::kQuarantined;
+    return catalogue_.put(moved);
+}
+
+Status Verifier::look_for_lost()
+{
+    std::vector<SlotRow> lost;
+    auto next = names_.begin();
+    TRY(catalogue_.for_each({}, [&](const SlotRow& row) {
+        while (next != names_.end() && next->sequence < row.sequence)
+            ++next;
+        const bool here = next != names_.end() && next->sequence == row.sequence;
+        if (row.kept == Kept::kHere && !here)
+            lost.push_back(row);
+        return true;
+    }));
+    for (SlotRow& row : lost) {
+        const bool mended = repairs();
+        row.kept = Kept::kLost;
+        if (mended)
+            TRY(catalogue_.put(row));
+        find(Kind::kMissing, row.sequence, folder_of(row.sequence, row.began_us).view(),
+             "the catalogue has it, and the folder is not there", mended);
+    }
+    return {};
+}
+
+Status Verifier::look_for_left_overs()
+{
+    const bool probes = how_ == Verify::kOnly;
+    if (probes && medium_.lock().number() == EWOULDBLOCK)
+        return {}; // it is being written
+    for (const char* const room : {kIncoming, kLeaving}) {
+        const Errno listed = medium_.list(room, [&](const MediumEntry& entry) {
+            find(Kind::kLeftOver, 0, join(room, entry.name), "an interruption left it; the next start ends it");
+            return true;
+        });
+        if (!listed.ok() && listed.number() != ENOENT) {
+            if (probes)
+                medium_.unlock();
+            return on_card(listed, room, "listing it");
+        }
+    }
+    if (probes)
+        medium_.unlock();
+    return {};
+}
+
+Result<VerifyReport> Verifier::run(FunctionRef<void(int, int)> progress)
+{
+    if (const Status sound = catalogue_.check(); !sound.ok())
+        find(Kind::kCatalogue, 0, Store::kCatalogueName, sound.message());
+    TRY(look_at_root());
+    const auto all = static_cast<int>(names_.size());
+    std::int64_t before = 0;
+    for (int i = 0; i < all; ++i) {
+        progress(i, all);
+        const SnapshotName& name = names_[static_cast<std::size_t>(i)];
+        const StorePath folder = folder_of(name.sequence, name.began_us).view();
+        if (!is_there(medium_, folder.c_str())) // pruned meanwhile
+            continue;
+        ++report_.folders;
+        const bool twice = name.sequence == before;
+        before = name.sequence;
+        if (twice)
+            find(Kind::kDamaged, name.sequence, folder, "an earlier folder has its number");
+        const bool whole = TRY(check_folder(folder, name));
+        if (whole && !twice)
+            TRY(compare_row(folder, name));
+        else if (repairs())
+            TRY(take_away(folder, name));
+    }
+    progress(all, all);
+    TRY(look_for_lost());
+    TRY(look_for_left_overs());
+    if (repairs())
+        TRY(catalogue_.sync());
+    report_.in_quarantine = count_quarantine(medium_);
+    return report_;
+}
+
+} // namespace
+
+Result<VerifyReport> verify_folders(Medium& medium, Catalogue& catalogue, const ReadingDesk& desk, Verify how,
+                                    FunctionRef<void(const Finding&)> found,
+                                    FunctionRef<void(int done, int all)> progress)
+{
+    return Verifier(medium, catalogue, desk, how, found).run(progress);
+}
+
+bool is_written_to(Medium& medium)
+{
+    const Errno locked = medium.lock();
+    if (locked.ok())
+        medium.unlock();
+    return locked.number() == EWOULDBLOCK;
+}
+
+} // namespace dicot
