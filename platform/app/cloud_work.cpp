@@ -63,9 +63,8 @@ Status CloudWork::see(PairSource& source, const PictureNames& names, FileShelf& 
         times.read_s = watch.lap_s();
     }
     if (!names.left.empty())
-        TRY(shelf.put(names.left.c_str(), [&](ByteSink& sink) {
-            return write_jpeg(sink, names.left.c_str(), left, kJpegQuality);
-        }));
+        TRY(shelf.put(names.left.c_str(),
+                      [&](ByteSink& sink) { return write_jpeg(sink, names.left.c_str(), left, kJpegQuality); }));
     times.pictures_s = watch.lap_s();
 
     Matcher matcher = TRY(Matcher::make(width, height, plan_.match, *plan_.kernels, plan_.threads, stage));

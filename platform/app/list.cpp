@@ -105,7 +105,8 @@ nlohmann::json summary_json(const Summary& summary)
             {"quarantined", totals.quarantined},
             {"lost", totals.lost},
             {"bytes_here", totals.bytes_here},
-            {"bytes_per_day", summary.pace.bytes_per_day > 0 ? nlohmann::json(summary.pace.bytes_per_day) : nlohmann::json()},
+            {"bytes_per_day",
+             summary.pace.bytes_per_day > 0 ? nlohmann::json(summary.pace.bytes_per_day) : nlohmann::json()},
             {"bytes_per_snapshot", summary.pace.bytes_per_snapshot},
             {"largest_snapshot_bytes", summary.pace.most_bytes},
             {"free_bytes", summary.space.free_bytes},
@@ -122,7 +123,8 @@ Status list_as_text(const FoundStores& found, const SlotQuery& query)
     for (const DeviceFolder& device : found.devices) {
         ReadStore store = TRY(ReadStore::open(device.path));
         const Summary summary = TRY(summary_of(store, rules, device.path));
-        std::printf("%s%s\n%-15s  %s\n", first ? "" : "\n", shown(device.path).c_str(), "device", slot_heading().c_str());
+        std::printf("%s%s\n%-15s  %s\n", first ? "" : "\n", shown(device.path).c_str(), "device",
+                    slot_heading().c_str());
         first = false;
         const std::string name = shown(device.device);
         std::int64_t rows = 0;
@@ -176,12 +178,14 @@ Status run(const Words& words)
 
 void add_list(CLI::App& program, Command& chosen)
 {
-    CLI::App* command = program.add_subcommand("list", "The slots of a store: done, missed and why, pulled when; and what room is left");
+    CLI::App* command = program.add_subcommand(
+        "list", "The slots of a store: done, missed and why, pulled when; and what room is left");
     auto words = std::make_shared<Words>();
     command->add_option("--since", words->since, "from this day or time on, UTC")->type_name("TIME");
     command->add_option("--until", words->until, "to the end of this day or time, UTC")->type_name("TIME");
     command->add_flag("--missed", words->missed, "the missed ones alone");
-    command->add_option("--last", words->last, "the newest ones alone, so many of each board")->check(CLI::PositiveNumber);
+    command->add_option("--last", words->last, "the newest ones alone, so many of each board")
+        ->check(CLI::PositiveNumber);
     words->store.add_to(*command);
     command->add_flag("--json", words->json, "report as JSON, one line a slot");
     command->callback([words, &chosen] { chosen = [words] { return run(*words); }; });

@@ -29,8 +29,8 @@ Result<std::int64_t> day_before(double days, Catalogue& catalogue)
 {
     const ClockReading clock = read_clock(TRY(newest_time(catalogue)));
     if (clock.trust == ClockTrust::kNotSet)
-        return failure(Fault::kUnavailable, "--older-than asks for a clock that can be trusted, and of this one %s: set it",
-                       clock.why);
+        return failure(Fault::kUnavailable,
+                       "--older-than asks for a clock that can be trusted, and of this one %s: set it", clock.why);
     return clock.now_us - static_cast<std::int64_t>(days * 86'400e6);
 }
 

@@ -58,11 +58,12 @@ Result<Verified> verify(const DeviceFolder& device, const StoreRules& rules, boo
     Verified verified;
     const auto found = [&](const Finding& finding) {
         verified.damage += is_damage(finding) ? 1 : 0;
-        verified.findings.push_back({{"kind", name_of(finding.kind)},
-                                     {"sequence", finding.sequence > 0 ? nlohmann::json(finding.sequence) : nlohmann::json()},
-                                     {"path", finding.path},
-                                     {"sentence", finding.sentence},
-                                     {"mended", finding.mended}});
+        verified.findings.push_back(
+            {{"kind", name_of(finding.kind)},
+             {"sequence", finding.sequence > 0 ? nlohmann::json(finding.sequence) : nlohmann::json()},
+             {"path", finding.path},
+             {"sentence", finding.sentence},
+             {"mended", finding.mended}});
     };
     Progress bar("verifying");
     const auto progress = [&bar](int done, int all) { bar.done(done, all); };
@@ -125,15 +126,17 @@ Status run(const Words& words)
         return {};
     return failure(Fault::kBadData, "%s: %s not as written: %s", shown(found.root).c_str(),
                    damage == 1 ? "1 thing is" : (std::to_string(damage) + " things are").c_str(),
-                   words.repair ? "what could not be mended is named above"
-                                : "dicot verify --repair moves damaged folders to quarantine and makes the catalogue again");
+                   words.repair
+                       ? "what could not be mended is named above"
+                       : "dicot verify --repair moves damaged folders to quarantine and makes the catalogue again");
 }
 
 } // namespace
 
 void add_verify(CLI::App& program, Command& chosen)
 {
-    CLI::App* command = program.add_subcommand("verify", "Reads and hashes all that is stored; exit code 65 if something is damaged");
+    CLI::App* command =
+        program.add_subcommand("verify", "Reads and hashes all that is stored; exit code 65 if something is damaged");
     auto words = std::make_shared<Words>();
     command->add_flag("--repair", words->repair,
                       "damaged folders to quarantine, the catalogue made again of the folders; nothing is deleted");

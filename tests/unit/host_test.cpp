@@ -44,9 +44,9 @@ TEST(ClockTrust, ASteeredClockIsSynchronisedWithTheKernelsBound)
 
 TEST(ClockTrust, TheProgramWasBuiltBeforeItRunsAndTheReadingIsOfNow)
 {
-    const auto now = std::chrono::duration_cast<std::chrono::microseconds>(
-                         std::chrono::system_clock::now().time_since_epoch())
-                         .count();
+    const auto now =
+        std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
+            .count();
     EXPECT_GT(built_us(), parse_utc_text("2025-01-01T00:00:00Z").value());
     EXPECT_LE(built_us(), now);
     const ClockReading reading = read_clock({});

@@ -84,9 +84,9 @@ struct MatchingConfig
 
 struct OutputConfig
 {
-    std::string folder = ".";    ///< around the folders of devices
-    std::string device;          ///< empty: the host's name
-    int reserve_mib = 256;       ///< of the file system, left to others
+    std::string folder = ".";     ///< around the folders of devices
+    std::string device;           ///< empty: the host's name
+    int reserve_mib = 256;        ///< of the file system, left to others
     std::string prune = "pulled"; ///< "never", "pulled", "all"
     bool keep_raw = false;
 };

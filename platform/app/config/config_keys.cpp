@@ -92,7 +92,8 @@ const ConfigKey kKeys[] = {
     {"matching", "threads", "", "Worker threads, 0: one for each processor; never changes the result",
      WholeKey{reach<int, &Config::matching, &MatchingConfig::threads>(), 0, ThreadCrew::kMaxThreads, {}}},
 
-    {"output", "folder", "", "Where snapshots go, each board's in a folder of its own; without this key the folder that dicot is started in",
+    {"output", "folder", "",
+     "Where snapshots go, each board's in a folder of its own; without this key the folder that dicot is started in",
      PathKey{reach<std::string, &Config::output, &OutputConfig::folder>()}},
     {"output", "device", "", "The board's name, of its folder in there and in every cloud",
      NameKey{reach<std::string, &Config::output, &OutputConfig::device>()}},

@@ -86,7 +86,8 @@ struct ConfigKey
     const char* name;
     const char* unit; ///< empty: none
     const char* meaning;
-    std::variant<BindingKey, ChoiceKey, PathKey, NameKey, ScriptKey, FormatsKey, WholeKey, NumberKey, OpenNumberKey, FlagKey>
+    std::variant<BindingKey, ChoiceKey, PathKey, NameKey, ScriptKey, FormatsKey, WholeKey, NumberKey, OpenNumberKey,
+                 FlagKey>
         kind;
 };
 

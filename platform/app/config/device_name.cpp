@@ -25,8 +25,7 @@ bool may_stand(char c) noexcept
 bool is_date(std::string_view text) noexcept
 {
     constexpr std::string_view kShape = "0000-00-00";
-    return std::ranges::equal(text, kShape,
-                              [](char c, char shape) { return shape == '0' ? is_digit(c) : c == shape; });
+    return std::ranges::equal(text, kShape, [](char c, char shape) { return shape == '0' ? is_digit(c) : c == shape; });
 }
 
 } // namespace
@@ -40,7 +39,8 @@ bool is_device_name(std::string_view text) noexcept
 std::string device_name_near(std::string_view host)
 {
     std::string name{host};
-    std::ranges::replace_if(name, [](char c) { return !may_stand(c); }, '-');
+    std::ranges::replace_if(
+        name, [](char c) { return !may_stand(c); }, '-');
     name.erase(name.begin(), std::ranges::find_if(name, is_letter_or_digit));
     name.resize(std::min(name.size(), kMostLetters));
     return is_device_name(name) ? name : "dicot";

@@ -49,7 +49,8 @@ const char* state_of(const SlotRow& row) noexcept
 std::string slot_heading()
 {
     char line[160];
-    std::snprintf(line, sizeof line, kLine, "number", "time (UTC)", "state", "points", "size", "pulled", "clock", "reason");
+    std::snprintf(line, sizeof line, kLine, "number", "time (UTC)", "state", "points", "size", "pulled", "clock",
+                  "reason");
     return line;
 }
 
@@ -57,11 +58,10 @@ std::string slot_line(const SlotRow& row)
 {
     const std::string clock = shown(row.clock_trust.view());
     char line[320];
-    const int length =
-        std::snprintf(line, sizeof line, kLine, std::to_string(row.sequence).c_str(), utc_text(row.began_us).c_str(),
-                      state_of(row), row.done ? std::to_string(row.points).c_str() : "-",
-                      shown_bytes(static_cast<double>(row.bytes)).c_str(),
-                      row.pulled_us ? utc_day(*row.pulled_us).c_str() : "-", clock.c_str(), "");
+    const int length = std::snprintf(
+        line, sizeof line, kLine, std::to_string(row.sequence).c_str(), utc_text(row.began_us).c_str(), state_of(row),
+        row.done ? std::to_string(row.points).c_str() : "-", shown_bytes(static_cast<double>(row.bytes)).c_str(),
+        row.pulled_us ? utc_day(*row.pulled_us).c_str() : "-", clock.c_str(), "");
     std::string text{line, static_cast<std::size_t>(length)};
     text += shown(row.reason.view());
     text.resize(text.find_last_not_of(' ') + 1);

@@ -36,7 +36,8 @@ std::string last_part(const std::string& path)
 
 Status cannot_read(const std::string& root, const std::error_code& error)
 {
-    return failure(Fault::kNoInput, "%s: %s: name the folder of the snapshots with --store, or output.folder in the configuration",
+    return failure(Fault::kNoInput,
+                   "%s: %s: name the folder of the snapshots with --store, or output.folder in the configuration",
                    shown(root).c_str(), error ? error.message().c_str() : "this is no folder");
 }
 
@@ -59,7 +60,8 @@ Result<std::vector<DeviceFolder>> devices_in(const std::string& root)
 bool is_device_folder(const std::string& path)
 {
     std::error_code error;
-    for (fs::directory_iterator entry(path, error); !error && entry != fs::directory_iterator{}; entry.increment(error)) {
+    for (fs::directory_iterator entry(path, error); !error && entry != fs::directory_iterator{};
+         entry.increment(error)) {
         const std::string name = entry->path().filename().string();
         if (name == Store::kCatalogueName || (is_day(name) && is_folder(*entry)))
             return true;

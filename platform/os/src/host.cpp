@@ -28,7 +28,8 @@ std::string line_of(const fs::path& path)
     const Result<std::size_t> size = file.read(start);
     std::string line{reinterpret_cast<const char*>(start.data()), size.ok() ? size.value() : 0};
     line.resize(std::min(line.find('\n'), line.size()));
-    std::ranges::replace_if(line, [](char c) { return c < ' ' || c > '~'; }, '?');
+    std::ranges::replace_if(
+        line, [](char c) { return c < ' ' || c > '~'; }, '?');
     return line;
 }
 

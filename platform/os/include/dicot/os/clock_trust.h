@@ -8,8 +8,8 @@ namespace dicot {
 
 enum class ClockTrust
 {
-    kNotSet,       ///< it shows a time that is over: before this program was built, or before what is known to have been
-    kSet,          ///< it shows a time that may be, and nobody steers it
+    kNotSet, ///< it shows a time that is over: before this program was built, or before what is known to have been
+    kSet,    ///< it shows a time that may be, and nobody steers it
     kSynchronised, ///< it is steered, by NTP or the like: adjtimex(2) does not say STA_UNSYNC
 };
 
