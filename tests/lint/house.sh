@@ -80,7 +80,7 @@ door 'sha2\.h' platform/os
 door 'png\.h' platform/picture
 door 'j(peglib|error)\.h' platform/picture
 door 'CLI/' platform/app
-door 'nlohmann/' platform/app
+door 'nlohmann/' '(platform/app|storage/record)'
 door 'toml\+\+/' platform/app/config
 door 'linux/videodev2\.h' drivers/camera/v4l2
 door 'libusb' '(drivers/camera/uvc|drivers/usb)'

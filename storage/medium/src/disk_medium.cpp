@@ -108,6 +108,7 @@ public:
     Errno sync_folder(const char* path) override;
     Errno space(MediumSpace& space) override;
     Errno lock() override { return errno_unless(::flock(root_.number(), LOCK_EX | LOCK_NB) == 0); }
+    void unlock() override { (void)::flock(root_.number(), LOCK_UN); }
 
 private:
     static constexpr std::size_t kMostOpen = 8;

@@ -74,6 +74,19 @@ StorePath join(std::string_view a, std::string_view b)
     return std::string_view{text, static_cast<std::size_t>(std::clamp(length, 0, static_cast<int>(sizeof text) - 1))};
 }
 
+SlotRow row_named(const SnapshotName& name)
+{
+    SlotRow row;
+    row.sequence = name.sequence;
+    row.began_us = name.began_us;
+    return row;
+}
+
+StorePath folder_of(const SlotRow& row)
+{
+    return folder_of(row.sequence, row.began_us).view();
+}
+
 ShortText<63> folder_of(std::int64_t sequence, std::int64_t began_us)
 {
     return join(utc_day(began_us).view(), snapshot_name({sequence, began_us}).view()).view();

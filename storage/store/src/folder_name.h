@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dicot/base/short_text.h"
+#include "dicot/catalogue/catalogue.h"
 
 #include <cstdint>
 #include <optional>
@@ -18,7 +19,7 @@ inline constexpr const char* kBallast = "ballast";       ///< room for the recor
 inline constexpr const char* kWriting = "writing"; ///< there while a process writes: left behind, it was interrupted
 inline constexpr const char* kRecord = "record.json";
 inline constexpr const char* kSums = "SHA256SUMS";
-inline constexpr const char* kPulled = "PULLED";
+inline constexpr const char* kPulledMark = "PULLED";
 
 inline constexpr std::int64_t kMaxSequence = 999'999'999;
 
@@ -30,6 +31,8 @@ struct SnapshotName
 
 /// "000017_20260601T120000Z": six digits or more, as few as possible.
 ShortText<31> snapshot_name(const SnapshotName& name);
+/// A row that knows no more than the name.
+SlotRow row_named(const SnapshotName& name);
 /// Only what snapshot_name() writes.
 std::optional<SnapshotName> parse_snapshot_name(std::string_view text);
 
@@ -38,6 +41,9 @@ bool is_day_name(std::string_view text);
 
 /// Letters, digits, '.', '_' and '-', 31 at most, not beginning with '.'.
 bool is_file_name(std::string_view text);
+
+/// Where a row's snapshot stands, or stood.
+StorePath folder_of(const SlotRow& row);
 
 /// "a/b"; "b" if `a` is empty.
 StorePath join(std::string_view a, std::string_view b);

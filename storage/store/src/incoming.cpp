@@ -58,7 +58,7 @@ Status Incoming::begin(const SnapshotName& name)
 
 Status Incoming::add(const char* name, FunctionRef<Status(ByteSink&)> fill)
 {
-    if (!begun_ || !is_file_name(name) || std::string_view(name) == kSums || std::string_view(name) == kPulled)
+    if (!begun_ || !is_file_name(name) || std::string_view(name) == kSums || std::string_view(name) == kPulledMark)
         return failure(Fault::kSoftware, "%s: no snapshot is begun, or no file of it can be called so", name);
     const StorePath path = join(part_.view(), name);
     CardFile file(medium_);

@@ -34,7 +34,7 @@ Result<std::int64_t> newest_here(Catalogue& catalogue)
 
 Status let_go(Medium& medium, Catalogue& catalogue, SlotRow row)
 {
-    const StorePath from = folder_of(row.sequence, row.began_us).view();
+    const StorePath from = folder_of(row);
     const StorePath to = join(kLeaving, snapshot_name({row.sequence, row.began_us}).view());
     TRY(on_card(medium.rename(from.c_str(), to.c_str()), from.c_str(), "renaming"));
     TRY(empty_folder(medium, to));
@@ -107,8 +107,7 @@ Status finish_leaving(Medium& medium, Catalogue& catalogue)
         for (std::size_t i = 0; i < count; ++i) {
             const SnapshotName name = *parse_snapshot_name(emptied[i].view());
             TRY(empty_folder(medium, join(kLeaving, emptied[i].view())));
-            SlotRow row = TRY(catalogue.find(name.sequence))
-                              .value_or(SlotRow{.sequence = name.sequence, .began_us = name.began_us});
+            SlotRow row = TRY(catalogue.find(name.sequence)).value_or(row_named(name));
             if (row.kept != Kept::kPruned && row.began_us == name.began_us) {
                 row.kept = Kept::kPruned;
                 TRY(catalogue.put(row));

@@ -52,7 +52,7 @@ Result<RecordFacts> read_record_file(Medium& medium, const StorePath& folder, co
 std::optional<std::int64_t> pulled_time(Medium& medium, const StorePath& folder, const ShortText<64>& sums)
 {
     std::byte buffer[PulledText::kCapacity];
-    const auto bytes = read_whole(medium, join(folder.view(), kPulled), buffer);
+    const auto bytes = read_whole(medium, join(folder.view(), kPulledMark), buffer);
     if (!bytes.ok())
         return {};
     const Result<PulledMark> mark = parse_pulled(text_of(bytes.value()));

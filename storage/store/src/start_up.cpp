@@ -46,7 +46,7 @@ Status end_one(Medium& medium, Catalogue& catalogue, const StorePath& leaf, cons
     const StorePath part = join(kIncoming, leaf.view());
     const auto name = parse_snapshot_name(leaf.view());
     if (!name) {
-        if (leaf.view().starts_with(kPulled)) // a mark that did not get to its place
+        if (leaf.view().starts_with(kPulledMark)) // a mark that did not get to its place
             return on_card(medium.remove_file(part.c_str()), part.c_str(), "removing it");
         return quarantine(medium, part);
     }

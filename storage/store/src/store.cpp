@@ -8,6 +8,8 @@
 #include "start_up.h"
 #include "verify.h"
 
+#include "dicot/base/utc_time.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <utility>
@@ -105,10 +107,12 @@ Status CardStore::open_catalogue_and_rows(const std::string& path, const char* v
 {
     catalogue_path_ = path;
     vfs_ = vfs;
-    auto opened = open_catalogue(medium_, path, vfs, report_);
-    if (!opened.ok() && release_ballast(medium_))
-        opened = open_catalogue(medium_, path, vfs, report_);
-    catalogue_ = TRY(std::move(opened));
+    if (auto opened = open_catalogue(medium_, path, vfs, report_); opened.ok())
+        catalogue_ = std::move(opened).value();
+    else if (release_ballast(medium_))
+        catalogue_ = TRY(open_catalogue(medium_, path, vfs, report_));
+    else
+        return opened.status();
     return was_interrupted || report_.catalogue_new ? add_rows(medium_, *catalogue_, desk_, report_) : Status{};
 }
 
@@ -193,10 +197,10 @@ Status CardStore::commit(const SlotOutcome& outcome)
 Status CardStore::mark_pulled(std::span<const Pull> pulls)
 {
     const auto part_of = [](const SlotRow& row) {
-        return join(kIncoming, std::string(kPulled) + "-" + std::to_string(row.sequence));
+        return join(kIncoming, std::string(kPulledMark) + "-" + std::to_string(row.sequence));
     };
     const auto row_of_pull = [&](const Pull& pull) -> Result<SlotRow> {
-        const auto row = TRY(catalogue_->find(pull.sequence));
+        const std::optional<SlotRow> row = TRY(catalogue_->find(pull.sequence));
         if (!row || row->kept != Kept::kHere)
             return failure(Fault::kNoInput, "there is no snapshot %lld", static_cast<long long>(pull.sequence));
         if (row->sums != pull.sums)
@@ -208,7 +212,8 @@ Status CardStore::mark_pulled(std::span<const Pull> pulls)
     for (const Pull& pull : pulls)
         TRY(row_of_pull(pull));
     for (const Pull& pull : pulls) {
-        const StorePath part = part_of(TRY(row_of_pull(pull)));
+        const SlotRow row = TRY(row_of_pull(pull));
+        const StorePath part = part_of(row);
         (void)medium_.remove_file(part.c_str());
         const PulledText text = print_pulled({pull.pulled_us, pull.sums});
         TRY(write_file(medium_, part, std::as_bytes(std::span(text.view()))));
@@ -216,7 +221,7 @@ Status CardStore::mark_pulled(std::span<const Pull> pulls)
     TRY(on_card(medium_.sync_all(), kIncoming, "syncing"));
     for (const Pull& pull : pulls) {
         const SlotRow row = TRY(row_of_pull(pull));
-        const StorePath target = join(folder_of(row.sequence, row.began_us).view(), kPulled);
+        const StorePath target = join(folder_of(row).view(), kPulledMark);
         const Errno moved = medium_.rename(part_of(row).c_str(), target.c_str());
         if (moved.number() == EEXIST) // an earlier pull stands
             (void)medium_.remove_file(part_of(row).c_str());
@@ -226,7 +231,7 @@ Status CardStore::mark_pulled(std::span<const Pull> pulls)
     TRY(on_card(medium_.sync_all(), "", "syncing"));
     for (const Pull& pull : pulls) {
         SlotRow row = TRY(row_of_pull(pull));
-        row.pulled_us = pulled_time(medium_, folder_of(row.sequence, row.began_us).view(), row.sums);
+        row.pulled_us = pulled_time(medium_, folder_of(row), row.sums);
         TRY(catalogue_->put(row));
     }
     return {};
@@ -248,7 +253,8 @@ Result<VerifyReport> CardStore::verify(bool repair, FunctionRef<void(const Findi
 Result<std::unique_ptr<Store>> Store::open(Medium& medium, const StoreRules& rules, const std::string& catalogue,
                                            const char* vfs)
 {
-    auto store = std::make_unique<CardStore>(medium, rules, TRY(ReadingDesk::make()));
+    ReadingDesk desk = TRY(ReadingDesk::make());
+    auto store = std::make_unique<CardStore>(medium, rules, std::move(desk));
     TRY(store->start(catalogue, vfs));
     return std::unique_ptr<Store>(std::move(store));
 }
@@ -270,8 +276,8 @@ Result<VerifyReport> verify_store(Medium& medium, const std::string& path, Funct
                                   FunctionRef<void(int, int)> progress)
 {
     const std::unique_ptr<Catalogue> catalogue = TRY(read_catalogue(medium, path));
-    VerifyReport report =
-        TRY(verify_folders(medium, *catalogue, TRY(ReadingDesk::make()), Verify::kOnly, found, progress));
+    const ReadingDesk desk = TRY(ReadingDesk::make());
+    VerifyReport report = TRY(verify_folders(medium, *catalogue, desk, Verify::kOnly, found, progress));
     // The rows were then made of the folders.
     const auto opened = Catalogue::open(path, Catalogue::Access::kRead);
     if (!opened.ok() && opened.status().fault() == Fault::kBadData) {

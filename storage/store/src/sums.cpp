@@ -50,7 +50,7 @@ Result<Sums> parse_sums(std::string_view text)
         if (!sums.add(words.substr(kDigits + 2), words.substr(0, kDigits)))
             return failure(Fault::kBadData, "line %d is one too many", line);
     }
-    if (sums.find(kRecord) == nullptr || sums.find(kSums) != nullptr || sums.find(kPulled) != nullptr)
+    if (sums.find(kRecord) == nullptr || sums.find(kSums) != nullptr || sums.find(kPulledMark) != nullptr)
         return failure(Fault::kBadData, "these are not the files of a snapshot");
     return sums;
 }

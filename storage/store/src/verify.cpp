@@ -144,7 +144,7 @@ Result<bool> Verifier::check_folder(const StorePath& folder, const SnapshotName&
 
 void Verifier::check_pulled(const StorePath& folder, const SnapshotName& name, const ShortText<64>& sums)
 {
-    const StorePath path = join(folder.view(), kPulled);
+    const StorePath path = join(folder.view(), kPulledMark);
     if (!is_there(medium_, path.c_str()) || pulled_time(medium_, folder, sums))
         return;
     const bool mended = repairs() && medium_.remove_file(path.c_str()).ok();
@@ -156,7 +156,7 @@ Status Verifier::look_for_strangers(const StorePath& folder, const SnapshotName&
 {
     const Errno listed = medium_.list(folder.c_str(), [&](const MediumEntry& entry) {
         if (entry.kind != EntryKind::kFile ||
-            (entry.name != kSums && entry.name != kPulled && sums.find(entry.name) == nullptr))
+            (entry.name != kSums && entry.name != kPulledMark && sums.find(entry.name) == nullptr))
             find(Kind::kStranger, name.sequence, join(folder.view(), entry.name), "SHA256SUMS does not have it");
         return true;
     });
@@ -184,7 +184,7 @@ Status Verifier::take_away(const StorePath& folder, const SnapshotName& name)
     std::optional<SlotRow> row = TRY(catalogue_.find(name.sequence));
     if (row && row->began_us != name.began_us)
         return {};
-    SlotRow moved = row.value_or(SlotRow{.sequence = name.sequence, .began_us = name.began_us});
+    SlotRow moved = row.value_or(row_named(name));
     if (!row)
         moved.reason = "damaged, and the catalogue did not have it";
     moved.kept = Kept::kQuarantined;
@@ -208,8 +208,7 @@ Status Verifier::look_for_lost()
         row.kept = Kept::kLost;
         if (mended)
             TRY(catalogue_.put(row));
-        find(Kind::kMissing, row.sequence, folder_of(row.sequence, row.began_us).view(),
-             "the catalogue has it, and the folder is not there", mended);
+        find(Kind::kMissing, row.sequence, folder_of(row), "the catalogue has it, and the folder is not there", mended);
     }
     return {};
 }

@@ -76,12 +76,15 @@ public:
     };
 
     /// `path`: the file; ":memory:" for one that is gone afterwards. `vfs`: SQLite's name of the way to the disk, null:
-    /// the usual one. Fault::kBadData: no catalogue, damaged, or of a later version (remedy: verify --repair);
-    /// kNoInput: not there; kIoError: full, read-only, failed.
+    /// the usual one. Fault::kBadData: no catalogue, damaged, or of a later version (remedy: verify --repair,
+    /// which must remove `path` with -wal, -shm and -journal behind it); kNoInput: not there; kIoError: full,
+    /// read-only, failed.
     static Result<std::unique_ptr<Catalogue>> open(const std::string& path, Access access, const char* vfs = nullptr);
     virtual ~Catalogue() = default;
 
-    virtual Status put(const SlotRow& row) = 0; ///< new, or instead of the row of this sequence
+    /// New, or instead of the row of this sequence; text is made printable (dicot/base/printable.h). Fault::kSoftware:
+    /// a number that no row has.
+    virtual Status put(const SlotRow& row) = 0;
     virtual Result<std::optional<SlotRow>> find(std::int64_t sequence) = 0;
     virtual Result<std::int64_t> last_sequence() = 0; ///< 0: no row
     /// In ascending order of sequence until `visit` returns false.
@@ -97,6 +100,9 @@ public:
     virtual Status sync() = 0;
     /// SQLite's integrity_check, and every value in its range. Fault::kBadData with the first complaint.
     virtual Status check() = 0;
+
+    /// How much of kHeapBytes SQLite ever used, all catalogues of this process together.
+    static std::size_t peak_heap_bytes() noexcept;
 };
 
 } // namespace dicot

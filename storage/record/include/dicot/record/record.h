@@ -13,6 +13,8 @@ namespace dicot {
 
 inline constexpr const char* kRecordFormat = "dicot record 1";
 inline constexpr std::size_t kMaxRecordBytes = std::size_t{256} << 10;
+inline constexpr std::int64_t kMaxSequence = (std::int64_t{1} << 53) - 1; ///< JSON readers with doubles see it exactly
+inline constexpr std::int64_t kMaxRecordPoints = (std::int64_t{1} << 32) - 1;
 
 struct RecordFacts
 {
@@ -20,7 +22,7 @@ struct RecordFacts
     std::int64_t began_us = 0;          ///< "time"
     std::optional<std::int64_t> due_us; ///< "due"
     bool done = false;                  ///< "outcome": "done" or "missed"
-    ShortText<255> reason;              ///< "reason", cut
+    ShortText<255> reason;              ///< "reason", made printable (dicot/base/printable.h), cut
     ShortText<31> clock_trust;          ///< "clock": {"trust"}
     std::int64_t points = 0;            ///< "cloud": {"points"}
 
@@ -33,7 +35,9 @@ struct RecordFacts
 Result<RecordFacts> read_record(std::span<const std::byte> text, const char* name, std::span<std::byte> heap);
 inline constexpr std::size_t kRecordHeapBytes = std::size_t{1} << 20;
 
-/// The record of a slot that nobody could finish, into `into`; how many bytes.
+/// The record of a slot that nobody could finish, into `into`; how many bytes, at most kMaxPlainRecordBytes. 0: it does
+/// not fit. Of the times, whole seconds.
 std::size_t write_plain_record(const RecordFacts& facts, const char* software, std::span<char> into);
+inline constexpr std::size_t kMaxPlainRecordBytes = 2048;
 
 } // namespace dicot

@@ -1,0 +1,36 @@
+// Rows for tests, each another one.
+#pragma once
+
+#include "dicot/catalogue/catalogue.h"
+
+#include <string>
+
+namespace dicot::test {
+
+constexpr std::int64_t kDayUs = 86'400'000'000;
+constexpr std::int64_t kFirstDayUs = 1'780'272'000'000'000; // 2026-06-01T00:00:00Z
+
+/// Two hours apart, every seventh one missed.
+inline SlotRow slot_row(std::int64_t sequence)
+{
+    SlotRow row;
+    row.sequence = sequence;
+    row.began_us = kFirstDayUs + sequence * kDayUs / 12;
+    row.due_us = row.began_us - 1;
+    row.done = sequence % 7 != 0;
+    row.clock_trust = "network";
+    if (row.done) {
+        row.points = 170'000 + sequence % 1000;
+        row.bytes = 700'000 + sequence % 5000;
+        std::string digits(64, '0');
+        for (std::size_t i = 0; i < digits.size(); ++i)
+            digits[i] = "0123456789abcdef"[(static_cast<std::size_t>(sequence) * 31 + i * i) % 16];
+        row.sums = std::string_view{digits};
+    } else {
+        row.reason = "the left camera, port 1-1.2, gave no picture in 10 s: look at its cable";
+        row.bytes = 900;
+    }
+    return row;
+}
+
+} // namespace dicot::test
