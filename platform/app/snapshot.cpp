@@ -70,7 +70,7 @@ Status shoot(const Config& config, const SnapshotWords& words, SnapshotBench& be
     if (words.preview)
         names.preview = "preview.png";
     CloudMeta meta = bench.plan.meta;
-    meta.device_id = words.device;
+    meta.device_id = std::string_view{words.device};
     meta.clock_trust = name_of(clock.trust);
     meta.sequence = store.sequence();
     Status status;

@@ -110,7 +110,8 @@ StoreRules rules_of(const OutputConfig& output)
 
 Result<std::optional<std::int64_t>> newest_time(Catalogue& catalogue)
 {
-    const std::optional<SlotRow> newest = TRY(catalogue.find(TRY(catalogue.last_sequence())));
+    const std::int64_t last = TRY(catalogue.last_sequence());
+    const std::optional<SlotRow> newest = TRY(catalogue.find(last));
     return newest ? std::optional{newest->began_us} : std::nullopt;
 }
 
