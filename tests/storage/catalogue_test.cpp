@@ -105,7 +105,7 @@ TEST(Catalogue, MakesTextPrintableAndRefusesNumbersOutOfRange)
         EXPECT_EQ(status.fault(), Fault::kSoftware) << status.message();
     };
     refused([](SlotRow& wrong) { wrong.sequence = 0; });
-    refused([](SlotRow& wrong) { wrong.sequence = std::int64_t{1} << 53; });
+    refused([](SlotRow& wrong) { wrong.sequence = 1'000'000'000; });
     refused([](SlotRow& wrong) { wrong.began_us += 1; });
     refused([](SlotRow& wrong) { wrong.due_us = INT64_MAX; });
     refused([](SlotRow& wrong) { wrong.points = -1; });

@@ -57,7 +57,7 @@ inline Status miss_one(Store& store, std::int64_t began_us, const std::string& r
 {
     TRY(store.begin({began_us, {}}));
     TRY(add_text(store, "record.json", record_words(store.sequence(), time_of_folder(store.folder()), false, reason)));
-    return store.commit({false, reason, "set", 0});
+    return store.commit({false, reason.c_str(), "set", 0});
 }
 
 inline std::vector<SlotRow> rows_of(Catalogue& catalogue, const SlotQuery& query = {})

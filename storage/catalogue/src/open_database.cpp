@@ -93,6 +93,8 @@ Status be_ready_to_write(const Database& database)
     const bool is_new = TRY(number_of(database, "SELECT count(*) FROM sqlite_master")) == 0;
     if (!is_new)
         TRY(check_schema(database)); // a file that is not ours is not changed
+    else // no journal beside a file that is being made: should power fail now, it is made again
+        TRY(database.run("PRAGMA journal_mode=MEMORY"));
     // A checkpoint after 64 pages: each is short, and pages that many rows touched are written to their place once.
     TRY(database.run("PRAGMA journal_mode=WAL;"
                      "PRAGMA synchronous=NORMAL;"

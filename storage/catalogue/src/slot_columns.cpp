@@ -12,8 +12,8 @@ namespace {
 constexpr std::int64_t kSecondUs = 1'000'000;
 constexpr std::int64_t kMaxBytes = std::int64_t{1} << 40;
 
-static_assert(kFirstUtcUs == -62167219200000000 && kLastUtcUs == 253402300799999999 &&
-              kMaxSequence == 9007199254740991 && kMaxRecordPoints == 4294967295 && kMaxBytes == 1099511627776);
+static_assert(kFirstUtcUs == -62167219200000000 && kLastUtcUs == 253402300799999999 && kMaxSequence == 999999999 &&
+              kMaxRecordPoints == 4294967295 && kMaxBytes == 1099511627776);
 
 #define DICOT_TIME(name) "typeof(" name ")='integer' AND " name " BETWEEN -62167219200000000 AND 253402300799999999"
 #define DICOT_TEXT(name, most)                                                                                         \
@@ -87,7 +87,7 @@ bool read_optional(const Statement& statement, int column, std::optional<std::in
 // Binary digests and no index: a row is what a card has to write for each snapshot, and 10,000 rows are read at once.
 const char* const
     kSlotTable =
-        "CREATE TABLE slot(sequence INTEGER PRIMARY KEY CHECK(sequence BETWEEN 1 AND 9007199254740991), "
+        "CREATE TABLE slot(sequence INTEGER PRIMARY KEY CHECK(sequence BETWEEN 1 AND 999999999), "
         "began_us INTEGER NOT NULL CHECK(" DICOT_TIME(
             "began_us") " AND began_us%1000000=0), "
                         "due_us INTEGER CHECK(due_us IS NULL OR (" DICOT_TIME("due_us") ")), " DICOT_NUMBER("done", "1") ", " DICOT_TEXT(

@@ -3,6 +3,7 @@
 
 #include "dicot/base/short_text.h"
 #include "dicot/catalogue/catalogue.h"
+#include "dicot/record/record.h"
 
 #include <cstdint>
 #include <optional>
@@ -20,8 +21,6 @@ inline constexpr const char* kWriting = "writing"; ///< there while a process wr
 inline constexpr const char* kRecord = "record.json";
 inline constexpr const char* kSums = "SHA256SUMS";
 inline constexpr const char* kPulledMark = "PULLED";
-
-inline constexpr std::int64_t kMaxSequence = 999'999'999;
 
 struct SnapshotName
 {

@@ -94,7 +94,7 @@ Result<std::unique_ptr<Catalogue>> open_catalogue(Medium& medium, const std::str
     auto opened = Catalogue::open(path, Catalogue::Access::kWrite, vfs);
     if (opened.ok() || opened.status().fault() != Fault::kBadData)
         return opened;
-    for (const char* const end : {"", "-wal", "-shm"}) {
+    for (const char* const end : {"", "-wal", "-shm", "-journal"}) {
         const StorePath file = (std::string(Store::kCatalogueName) + end).c_str();
         if (is_there(medium, file.c_str()))
             TRY(quarantine(medium, file));

@@ -3,7 +3,7 @@
 #include "card.h"
 #include "incoming.h"
 #include "leaving.h"
-#include "pulled_mark.h"
+#include "pulls.h"
 #include "snapshot_folder.h"
 #include "start_up.h"
 #include "verify.h"
@@ -42,7 +42,7 @@ public:
     void for_each_added(FunctionRef<void(const Added&)> visit) const override { incoming_.for_each_added(visit); }
     Status take_back() override;
     Status commit(const SlotOutcome& outcome) override;
-    Status mark_pulled(std::span<const Pull> pulls) override;
+    Status mark_pulled(std::span<const Pull> pulls) override { return mark_pulls(medium_, *catalogue_, pulls); }
     Result<PruneReport> prune(const PruneWish& wish, FunctionRef<void(const SlotRow&)> going) override
     {
         return prune_folders(medium_, *catalogue_, rules_.prune, wish, going);
@@ -191,49 +191,6 @@ Status CardStore::commit(const SlotOutcome& outcome)
                          .pulled_us = {},
                          .kept = Kept::kHere}));
     keep_ballast(medium_, rules_.reserve_bytes);
-    return {};
-}
-
-Status CardStore::mark_pulled(std::span<const Pull> pulls)
-{
-    const auto part_of = [](const SlotRow& row) {
-        return join(kIncoming, std::string(kPulledMark) + "-" + std::to_string(row.sequence));
-    };
-    const auto row_of_pull = [&](const Pull& pull) -> Result<SlotRow> {
-        const std::optional<SlotRow> row = TRY(catalogue_->find(pull.sequence));
-        if (!row || row->kept != Kept::kHere)
-            return failure(Fault::kNoInput, "there is no snapshot %lld", static_cast<long long>(pull.sequence));
-        if (row->sums != pull.sums)
-            return failure(Fault::kBadData,
-                           "snapshot %lld has other digests than those that the host has; pull it again",
-                           static_cast<long long>(pull.sequence));
-        return *row;
-    };
-    for (const Pull& pull : pulls)
-        TRY(row_of_pull(pull));
-    for (const Pull& pull : pulls) {
-        const SlotRow row = TRY(row_of_pull(pull));
-        const StorePath part = part_of(row);
-        (void)medium_.remove_file(part.c_str());
-        const PulledText text = print_pulled({pull.pulled_us, pull.sums});
-        TRY(write_file(medium_, part, std::as_bytes(std::span(text.view()))));
-    }
-    TRY(on_card(medium_.sync_all(), kIncoming, "syncing"));
-    for (const Pull& pull : pulls) {
-        const SlotRow row = TRY(row_of_pull(pull));
-        const StorePath target = join(folder_of(row).view(), kPulledMark);
-        const Errno moved = medium_.rename(part_of(row).c_str(), target.c_str());
-        if (moved.number() == EEXIST) // an earlier pull stands
-            (void)medium_.remove_file(part_of(row).c_str());
-        else
-            TRY(on_card(moved, target.c_str(), "renaming"));
-    }
-    TRY(on_card(medium_.sync_all(), "", "syncing"));
-    for (const Pull& pull : pulls) {
-        SlotRow row = TRY(row_of_pull(pull));
-        row.pulled_us = pulled_time(medium_, folder_of(row), row.sums);
-        TRY(catalogue_->put(row));
-    }
     return {};
 }
 

@@ -1,6 +1,6 @@
 #include "verify.h"
 
-#include "pulled_mark.h"
+#include "pulls.h"
 #include "start_up.h"
 
 #include "dicot/base/utc_time.h"
@@ -34,7 +34,8 @@ private:
     Status list_day(const StorePath& day);
     /// Whether the folder is as it was stored.
     Result<bool> check_folder(const StorePath& folder, const SnapshotName& name);
-    void check_pulled(const StorePath& folder, const SnapshotName& name, const ShortText<64>& sums);
+    /// A damaged mark is named, and written anew if the catalogue remembers the pull.
+    Status check_pulled(const StorePath& folder, const SlotRow& row);
     Status look_for_strangers(const StorePath& folder, const SnapshotName& name, const Sums& sums);
     Status compare_row(const StorePath& folder, const SnapshotName& name);
     Status take_away(const StorePath& folder, const SnapshotName& name);
@@ -115,20 +116,22 @@ Result<bool> Verifier::check_folder(const StorePath& folder, const SnapshotName&
     }
     const ReadSums& sums = read.value();
     const std::optional<SlotRow> row = TRY(catalogue_.find(name.sequence));
+    // A digest, or a name, that does not fit may be wrong itself: then the catalogue has another digest of SHA256SUMS.
+    const bool sums_differ = row && !row->sums.empty() && row->sums != sums.sha256;
     bool whole = true;
     for (const Sum& sum : sums.sums.all()) {
-        const StorePath path = join(folder.view(), sum.name.view());
         const Status status = check_file(medium_, folder, sum, desk_, report_.bytes);
         if (status.ok())
             continue;
         whole = false;
-        const bool there = is_there(medium_, path.c_str());
-        // A digest that does not fit may be wrong itself: then the catalogue has another one of SHA256SUMS.
-        if (there && status.fault() == Fault::kBadData && row && !row->sums.empty() && row->sums != sums.sha256)
+        if (sums_differ) {
             find(Kind::kDamaged, name.sequence, sums_path, "its bytes are not those that were stored");
-        else
-            find(there ? Kind::kDamaged : Kind::kMissing, name.sequence, path,
-                 there ? status.message() : "it is not there");
+            return false;
+        }
+        const StorePath path = join(folder.view(), sum.name.view());
+        const bool there = is_there(medium_, path.c_str());
+        find(there ? Kind::kDamaged : Kind::kMissing, name.sequence, path,
+             there ? status.message() : "it is not there");
     }
     if (whole) {
         const Result<SlotRow> facts = row_of(medium_, folder, name, desk_);
@@ -137,19 +140,18 @@ Result<bool> Verifier::check_folder(const StorePath& folder, const SnapshotName&
             find(Kind::kDamaged, name.sequence, join(folder.view(), kRecord), facts.status().message());
     }
     TRY(look_for_strangers(folder, name, sums.sums));
-    if (whole)
-        check_pulled(folder, name, sums.sha256);
     return whole;
 }
 
-void Verifier::check_pulled(const StorePath& folder, const SnapshotName& name, const ShortText<64>& sums)
+Status Verifier::check_pulled(const StorePath& folder, const SlotRow& row)
 {
     const StorePath path = join(folder.view(), kPulledMark);
-    if (!is_there(medium_, path.c_str()) || pulled_time(medium_, folder, sums))
-        return;
-    const bool mended = repairs() && medium_.remove_file(path.c_str()).ok();
-    find(Kind::kDamaged, name.sequence, path, "the mark of a pull is damaged; the snapshot counts as not pulled",
-         mended);
+    if (repairs()) {
+        TRY(on_card(medium_.remove_file(path.c_str()), path.c_str(), "removing it"));
+        TRY(restore_mark(medium_, row));
+    }
+    find(Kind::kDamaged, row.sequence, path, "the mark of a pull is damaged", repairs());
+    return {};
 }
 
 Status Verifier::look_for_strangers(const StorePath& folder, const SnapshotName& name, const Sums& sums)
@@ -166,7 +168,12 @@ Status Verifier::look_for_strangers(const StorePath& folder, const SnapshotName&
 Status Verifier::compare_row(const StorePath& folder, const SnapshotName& name)
 {
     const std::optional<SlotRow> row = TRY(catalogue_.find(name.sequence));
-    const SlotRow facts = TRY(row_of(medium_, folder, name, desk_));
+    SlotRow facts = TRY(row_of(medium_, folder, name, desk_));
+    if (!facts.pulled_us && is_there(medium_, join(folder.view(), kPulledMark).c_str())) {
+        if (row && row->sums == facts.sums)
+            facts.pulled_us = row->pulled_us;
+        TRY(check_pulled(folder, facts));
+    }
     if (row && *row == facts)
         return {};
     if (repairs())

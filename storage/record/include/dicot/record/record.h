@@ -13,7 +13,7 @@ namespace dicot {
 
 inline constexpr const char* kRecordFormat = "dicot record 1";
 inline constexpr std::size_t kMaxRecordBytes = std::size_t{256} << 10;
-inline constexpr std::int64_t kMaxSequence = (std::int64_t{1} << 53) - 1; ///< JSON readers with doubles see it exactly
+inline constexpr std::int64_t kMaxSequence = 999'999'999; ///< nine digits in a folder's name
 inline constexpr std::int64_t kMaxRecordPoints = (std::int64_t{1} << 32) - 1;
 
 struct RecordFacts
@@ -33,7 +33,7 @@ struct RecordFacts
 /// no JSON, another format, a key that is missing, twice, of another type or out of its range, nesting beyond 32, more
 /// than kMaxRecordBytes.
 Result<RecordFacts> read_record(std::span<const std::byte> text, const char* name, std::span<std::byte> heap);
-inline constexpr std::size_t kRecordHeapBytes = std::size_t{1} << 20;
+inline constexpr std::size_t kRecordHeapBytes = std::size_t{3} << 19;
 
 /// The record of a slot that nobody could finish, into `into`; how many bytes, at most kMaxPlainRecordBytes. 0: it does
 /// not fit. Of the times, whole seconds.
