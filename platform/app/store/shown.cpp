@@ -1,5 +1,7 @@
 #include "shown.h"
 
+#include "dicot/base/printable.h"
+
 #include <array>
 #include <cstdio>
 
@@ -9,17 +11,19 @@ std::string shown(std::string_view text)
 {
     constexpr std::size_t kMost = 200;
     constexpr const char* kHex = "0123456789ABCDEF";
-    std::string printable;
+    if (text.size() <= kMost && is_printable(text))
+        return std::string{text};
+    std::string escaped;
     for (const char c : text.substr(0, kMost)) {
         const auto byte = static_cast<unsigned char>(c);
         if (c == '\\')
-            printable += "\\\\";
+            escaped += "\\\\";
         else if (c >= ' ' && c <= '~')
-            printable += c;
+            escaped += c;
         else
-            printable += {'\\', 'x', kHex[byte >> 4U], kHex[byte & 15U]};
+            escaped += {'\\', 'x', kHex[byte >> 4U], kHex[byte & 15U]};
     }
-    return text.size() > kMost ? printable + "..." : printable;
+    return text.size() > kMost ? escaped + "..." : escaped;
 }
 
 std::string shown_bytes(double bytes)

@@ -7,7 +7,8 @@
 
 namespace dicot::app {
 
-/// Printable ASCII as it is, anything else as \x1B; of more than 200 bytes the beginning.
+/// What is printable (dicot/base/printable.h) and has 200 bytes at most as it is; of anything else the beginning, with
+/// \x1B for every byte that is no printable ASCII.
 std::string shown(std::string_view text);
 
 /// "512 B", "4.1 KiB", "12.3 MiB", "1.5 GiB".
