@@ -39,11 +39,19 @@ const char* name_of(Finding::Kind kind) noexcept
     return "left over";
 }
 
-/// What is lost or wrong as long as nobody mends it.
-bool is_damage(const Finding& finding) noexcept
+/// A damaged snapshot is not made whole, but a repair moves it out of the way.
+bool is_dealt_with(const Finding& finding, bool repair) noexcept
 {
-    return !finding.mended && (finding.kind == Finding::Kind::kDamaged || finding.kind == Finding::Kind::kMissing ||
-                               finding.kind == Finding::Kind::kCatalogue);
+    return finding.mended || (repair && finding.sequence > 0 &&
+                              (finding.kind == Finding::Kind::kDamaged || finding.kind == Finding::Kind::kMissing));
+}
+
+/// What is lost or wrong as long as nobody deals with it.
+bool is_damage(const Finding& finding, bool repair) noexcept
+{
+    return !is_dealt_with(finding, repair) &&
+           (finding.kind == Finding::Kind::kDamaged || finding.kind == Finding::Kind::kMissing ||
+            finding.kind == Finding::Kind::kCatalogue);
 }
 
 struct Verified
@@ -51,19 +59,21 @@ struct Verified
     VerifyReport report;
     nlohmann::json findings = nlohmann::json::array();
     int damage = 0;
+    int dealt_with = 0;
 };
 
 Result<Verified> verify(const DeviceFolder& device, const StoreRules& rules, bool repair)
 {
     Verified verified;
     const auto found = [&](const Finding& finding) {
-        verified.damage += is_damage(finding) ? 1 : 0;
+        verified.dealt_with += is_dealt_with(finding, repair) ? 1 : 0;
+        verified.damage += is_damage(finding, repair) ? 1 : 0;
         verified.findings.push_back(
             {{"kind", name_of(finding.kind)},
              {"sequence", finding.sequence > 0 ? nlohmann::json(finding.sequence) : nlohmann::json()},
              {"path", finding.path},
              {"sentence", finding.sentence},
-             {"mended", finding.mended}});
+             {"dealt_with", is_dealt_with(finding, repair)}});
     };
     Progress bar("verifying");
     const auto progress = [&bar](int done, int all) { bar.done(done, all); };
@@ -83,14 +93,14 @@ void print(const DeviceFolder& device, const Verified& verified)
     for (const nlohmann::json& finding : verified.findings)
         std::printf("%s/%s: %s: %s%s\n", path.c_str(), shown(finding["path"].get<std::string>()).c_str(),
                     finding["kind"].get<std::string>().c_str(), shown(finding["sentence"].get<std::string>()).c_str(),
-                    finding["mended"].get<bool>() ? " (mended)" : "");
+                    finding["dealt_with"].get<bool>() ? " (dealt with)" : "");
     const VerifyReport& report = verified.report;
     std::printf("%s: %s and %s read; ", path.c_str(), counted(report.folders, "folder").c_str(),
                 shown_bytes(static_cast<double>(report.bytes)).c_str());
     if (report.findings == 0)
         std::printf("everything is as it was written");
     else
-        std::printf("%s, %d mended", counted(report.findings, "finding").c_str(), report.mended);
+        std::printf("%s, %d dealt with", counted(report.findings, "finding").c_str(), verified.dealt_with);
     if (report.in_quarantine > 0)
         std::printf("; %s in quarantine", counted(report.in_quarantine, "folder").c_str());
     std::printf("\n");
@@ -113,7 +123,7 @@ Status run(const Words& words)
                           {"path", device.path},
                           {"folders", verified.report.folders},
                           {"bytes", verified.report.bytes},
-                          {"mended", verified.report.mended},
+                          {"dealt_with", verified.dealt_with},
                           {"damaged", verified.damage},
                           {"in_quarantine", verified.report.in_quarantine},
                           {"findings", verified.findings}});
@@ -127,7 +137,7 @@ Status run(const Words& words)
     return failure(Fault::kBadData, "%s: %s not as written: %s", shown(found.root).c_str(),
                    damage == 1 ? "1 thing is" : (std::to_string(damage) + " things are").c_str(),
                    words.repair
-                       ? "what could not be mended is named above"
+                       ? "what could not be dealt with is named above"
                        : "dicot verify --repair moves damaged folders to quarantine and makes the catalogue again");
 }
 
