@@ -2,6 +2,7 @@
 #include "cloud_on_disk.h"
 #include "commands.h"
 
+#include "dicot/export/export_cloud.h"
 #include "dicot/os/input_file.h"
 #include "dicot/os/shown_path.h"
 #include "dicot/picture/read_picture.h"
@@ -104,6 +105,8 @@ Result<Json> about_cloud(const char* path)
                 {"points", points.size()},
                 {"bytes", read.file_bytes()},
                 {"bits_per_point", 8.0 * static_cast<double>(read.file_bytes()) / count},
+                {"times_smaller_than_ply",
+                 static_cast<double>(kPlyBytesPerPoint) * count / static_cast<double>(read.file_bytes())},
                 {"least_mm", mm(least)},
                 {"most_mm", mm(most)},
                 {"mean_confidence", static_cast<double>(confidence) / 255.0 / count},

@@ -25,13 +25,8 @@ std::unique_ptr<Catalogue> opened(const std::string& path, Catalogue::Access acc
 
 void fill(Catalogue& catalogue, std::int64_t rows)
 {
-    ASSERT_TRUE(catalogue.begin().ok());
-    for (std::int64_t i = 1; i <= rows; ++i) {
-        const Status put = catalogue.put(slot_row(i));
-        ASSERT_TRUE(put.ok()) << put.message();
-    }
-    const Status committed = catalogue.commit();
-    ASSERT_TRUE(committed.ok()) << committed.message();
+    const Status status = test::put_rows(catalogue, 1, rows);
+    ASSERT_TRUE(status.ok()) << status.message();
 }
 
 std::vector<std::int64_t> asked(Catalogue& catalogue, const SlotQuery& query)

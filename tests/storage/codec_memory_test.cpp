@@ -30,6 +30,17 @@ std::vector<CloudPoint> smooth_points(std::size_t count)
     return points;
 }
 
+/// The smooth wall on which a few points leap by half of what z spans. Differences are wrapped into that span, so these
+/// are the largest; here they just fit the largest table of single differences, 2^18.
+std::vector<CloudPoint> leaping_points(std::size_t count)
+{
+    std::vector<CloudPoint> points = smooth_points(count);
+    points[count / 2].z = 261000;
+    for (std::size_t i = 5000; i < count; i += 10000)
+        points[i].z += 130000 - static_cast<std::int32_t>(i / 10000 % 7);
+    return points;
+}
+
 struct Case
 {
     const char* name;
@@ -40,13 +51,15 @@ struct Case
 std::vector<Case> cases()
 {
     std::vector<Case> all;
-    for (const int bits : {14, 20})
+    for (const int bits : {12, 14, 16, 17, 18, 20})
         for (const std::size_t count : {1U, 1000U, 16385U, 32769U, 65537U, 131073U, 262145U,
                                         921600U}) { // just above the doublings of growing buffers
             const CloudGrid grid{100, bits, {0, 0, 0}};
             all.push_back({"random", test::random_points(grid, count, 1), grid});
         }
     all.push_back({"smooth", smooth_points(307200), {100, 14, {0, 0, 0}}});
+    for (const std::size_t count : {10001U, 30000U, 307200U, 921600U})
+        all.push_back({"leaping", leaping_points(count), {100, 20, {0, 0, 0}}});
     return all;
 }
 

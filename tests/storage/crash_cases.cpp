@@ -38,6 +38,12 @@ std::size_t phase_of(const Story& story, Moment moment)
     return phase;
 }
 
+/// What the judge did afterwards is not part of it.
+std::vector<Change> repair_of(const CrashMedium& card, Moment opened)
+{
+    return {card.log().begin(), card.log().begin() + static_cast<std::ptrdiff_t>(opened)};
+}
+
 class Run
 {
 public:
@@ -89,11 +95,12 @@ void Run::cut(const Cut& cut)
 
 void Run::cut_repair(const Cut& cut, const CrashMedium& repaired, Moment opened)
 {
+    const std::vector<Change> repair = repair_of(repaired, opened);
     Dice dice{cut.at * 31 + cut.seed};
     for (const auto mode : {Cut::Mode::kInOrder, Cut::Mode::kSubset, Cut::Mode::kSubset, Cut::Mode::kTorn}) {
-        const Cut second{mode, static_cast<std::size_t>(dice.below(opened + 1)),
+        const Cut second{mode, static_cast<std::size_t>(dice.below(repair.size() + 1)),
                          mode == Cut::Mode::kInOrder ? 0U : static_cast<unsigned>(dice.below(100))};
-        CrashMedium card{surviving(repaired.start(), repaired.log(), second)};
+        CrashMedium card{surviving(repaired.start(), repair, second)};
         if (!is_new(card.start(), cut.at))
             continue;
         ++report_.repair_states;
@@ -151,7 +158,7 @@ Verdict run_case(CrashVfs& vfs, const Recording& recording, const CrashCase& whi
     const Recovered first = judge(card, vfs, recording.story, which.cut.at);
     if (!which.repair_cut)
         return first.verdict;
-    CrashMedium again{surviving(card.start(), card.log(), *which.repair_cut)};
+    CrashMedium again{surviving(card.start(), repair_of(card, first.opened), *which.repair_cut)};
     return judge(again, vfs, recording.story, which.cut.at).verdict;
 }
 

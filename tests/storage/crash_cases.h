@@ -48,7 +48,7 @@ struct CrashPlan
     Cut::Mode mode = Cut::Mode::kInOrder;
     unsigned seeds = 1;
     std::size_t repairs_every = 0; ///< of so many states, one has its repair cut too, in every mode; 0: none
-    std::size_t most_failures = 5; ///< then it ends
+    std::size_t most_failures = 8; ///< then it ends
 };
 
 struct CrashReport

@@ -27,7 +27,7 @@ std::string record_of(std::int64_t sequence, std::int64_t began_us, const Conten
     facts.sequence = sequence;
     facts.began_us = began_us;
     facts.done = content.done;
-    facts.reason = content.reason;
+    facts.reason = content.reason.c_str();
     facts.clock_trust = "set";
     facts.points = content.done ? sequence * 10 : 0;
     char text[kMaxPlainRecordBytes];
@@ -66,6 +66,8 @@ public:
     Teller(CrashMedium& card, CrashVfs& vfs, const StoryRules& rules) : card_(card), rules_(rules) { vfs.use(card); }
 
     Story tell();
+    Story tell_until_full(int slots);
+    Story tell_with_a_thief();
 
 private:
     bool open();
@@ -199,6 +201,26 @@ Story Teller::tell()
     return story_;
 }
 
+Story Teller::tell_until_full(int slots)
+{
+    for (int k = 0; open() && k < slots; ++k)
+        snapshot(kNextDay + k * 60 * kSecond);
+    store_.reset();
+    return story_;
+}
+
+Story Teller::tell_with_a_thief()
+{
+    if (!open())
+        return story_;
+    snapshot(kNextDay);
+    card_.set_capacity(card_.now().used_bytes() + 3 * 4096);
+    rules_.store.reserve_bytes = 0;
+    snapshot(kNextDay + 60 * kSecond);
+    store_.reset();
+    return story_;
+}
+
 } // namespace
 
 Status store_snapshot(CrashMedium& card, Store& store, std::int64_t began_us, unsigned seed,
@@ -223,6 +245,16 @@ Status store_snapshot(CrashMedium& card, Store& store, std::int64_t began_us, un
 Story tell(CrashMedium& card, CrashVfs& vfs, const StoryRules& rules)
 {
     return Teller(card, vfs, rules).tell();
+}
+
+Story tell_until_full(CrashMedium& card, CrashVfs& vfs, const StoryRules& rules, int slots)
+{
+    return Teller(card, vfs, rules).tell_until_full(slots);
+}
+
+Story tell_with_a_thief(CrashMedium& card, CrashVfs& vfs, const StoryRules& rules)
+{
+    return Teller(card, vfs, rules).tell_with_a_thief();
 }
 
 } // namespace dicot::test

@@ -30,17 +30,17 @@ private:
 
 TEST_F(StoreAfterPowerLoss, keeps_its_promises_when_changes_last_in_order)
 {
-    hold({.mode = Cut::Mode::kInOrder, .seeds = 1, .repairs_every = 16});
+    hold({.mode = Cut::Mode::kInOrder, .seeds = 1, .repairs_every = 1});
 }
 
 TEST_F(StoreAfterPowerLoss, keeps_its_promises_whatever_was_not_synced_is_lost)
 {
-    hold({.mode = Cut::Mode::kSubset, .seeds = 6, .repairs_every = 16});
+    hold({.mode = Cut::Mode::kSubset, .seeds = 150, .repairs_every = 2});
 }
 
 TEST_F(StoreAfterPowerLoss, keeps_its_promises_when_writes_are_torn)
 {
-    hold({.mode = Cut::Mode::kTorn, .seeds = 4, .repairs_every = 16});
+    hold({.mode = Cut::Mode::kTorn, .seeds = 80, .repairs_every = 2});
 }
 
 } // namespace

@@ -2,37 +2,51 @@
 
 #include "dicot/os/lent_heap.h"
 #include "dicot/os/shown_path.h"
-#include "draco_points.h"
+#include "packed_points.h"
 
-#include <cmath>
 #include <exception>
 
 namespace dicot {
 namespace {
 
-// Measured beside the encoder's (tests/storage/codec_memory_test.cpp).
-constexpr std::size_t kDecodeBytesPerPoint = 64;
+// One attribute, and the entropy coder's tables: 6 MiB at most (tests/storage/codec_memory_test.cpp).
+constexpr std::size_t kDecodeBytesPerPoint = 12;
 constexpr std::size_t kDecodeBytesFixed = std::size_t{8} << 20;
 
-/// The step nearest to `metres`, if it is on the grid.
-bool step_of(float metres, const CloudGrid& grid, int axis, std::int32_t& step)
+/// Puts one attribute where it belongs; confidences as they stand in the file. False: a value that none can be.
+bool place(Part part, std::span<const std::int32_t> values, const CloudGrid& grid, std::span<CloudPoint> points)
 {
-    const double steps = static_cast<double>(metres) / (grid.step_um * 1e-6);
-    if (!(std::fabs(steps) < 0x1p30))
-        return false;
-    step = static_cast<std::int32_t>(std::lround(steps));
-    const std::int64_t index = std::int64_t{step} - grid.origin[axis];
-    return index >= 0 && index < (std::int64_t{1} << grid.bits);
+    const std::int32_t last = part == Part::kPosition ? (1 << grid.bits) - 1 : 255;
+    for (const std::int32_t value : values)
+        if (value < 0 || value > last)
+            return false;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::int32_t* read = values.data() + i * components_of(part);
+        const auto byte = [read](int component) { return static_cast<std::uint8_t>(read[component]); };
+        CloudPoint& point = points[i];
+        if (part == Part::kPosition) {
+            point.x = grid.origin[0] + read[0];
+            point.y = grid.origin[1] + read[1];
+            point.z = grid.origin[2] + read[2];
+        } else if (part == Part::kColour) {
+            point.colour = {byte(0), byte(1), byte(2)};
+        } else {
+            point.confidence = byte(0);
+        }
+    }
+    return true;
 }
 
-bool point_of(const PlainPoint& plain, const CloudGrid& grid, CloudPoint& point)
+/// From 0 .. 2^bits - 1 to 0 .. 255, to the nearest.
+bool widen_confidences(std::span<CloudPoint> points, int bits)
 {
-    if (!(plain.confidence >= 0.0F && plain.confidence <= 1.0F))
-        return false;
-    point.colour = plain.colour;
-    point.confidence = static_cast<std::uint8_t>(std::lround(plain.confidence * 255.0F));
-    return step_of(plain.metres[0], grid, 0, point.x) && step_of(plain.metres[1], grid, 1, point.y) &&
-           step_of(plain.metres[2], grid, 2, point.z);
+    const int last = (1 << bits) - 1;
+    for (CloudPoint& point : points) {
+        if (point.confidence > last)
+            return false;
+        point.confidence = static_cast<std::uint8_t>((2 * 255 * point.confidence + last) / (2 * last));
+    }
+    return true;
 }
 
 } // namespace
@@ -52,12 +66,12 @@ Status decode_cloud(std::span<const std::byte> file, const CloudOutline& outline
                        outline.points);
     LentHeap lent{heap};
     try {
-        const DracoPoints decoded = DracoPoints::unpack(file, outline.points);
-        if (!decoded)
+        int confidence_bits = 0;
+        const auto take = [&](Part part, std::span<const std::int32_t> values) {
+            return place(part, values, outline.grid, points);
+        };
+        if (!unpack(file, outline, confidence_bits, take) || !widen_confidences(points, confidence_bits))
             return damaged;
-        for (std::size_t i = 0; i < points.size(); ++i)
-            if (!point_of(decoded.at(i), outline.grid, points[i]))
-                return damaged;
     } catch (const std::exception&) { // also what a damaged file asks for beyond the heap
         return damaged;
     }

@@ -1,11 +1,11 @@
 #include "dicot/codec/encode_cloud.h"
 
+#include "cloud_encoder.h"
 #include "dicot/os/lent_heap.h"
-#include "draco_points.h"
 #include "meta_entries.h"
-#include "thrifty_encoder.h"
+#include "packed_points.h"
 
-#include <draco/compression/expert_encode.h>
+#include <draco/core/quantization_utils.h>
 #include <draco/metadata/geometry_metadata.h>
 #include <draco/point_cloud/point_cloud.h>
 
@@ -19,21 +19,17 @@
 namespace dicot {
 namespace {
 
-// Measured with uniformly random points, which compress worst, and rounded up (tests/storage/codec_memory_test.cpp).
-constexpr std::size_t kEncodeBytesPerPoint = 108;
-constexpr std::size_t kEncodeBytesFixed = std::size_t{9} << 19;
-// Slower settings gain 0.4 % of the size, faster ones lose 0.6 %.
-constexpr int kSpeed = 5;
-constexpr int kConfidenceBits = 8;
-// Room for the file from the start, or growing would hold it twice: random points on 20 bits take 11.6 bytes, and the
-// entropy coder asks for twice what it expects to fill.
-constexpr std::size_t kFileBytesPerPoint = 16;
+// Two moments can be the fullest, each measured with clouds that fill it and rounded up
+// (tests/storage/codec_memory_test.cpp). Beside the file and two rows of three numbers a point there are either the
+// tables of an entropy coder, as large as the differences are, or a third row, when differences are written bit by bit.
+constexpr std::size_t kTableBytesPerPoint = 38;
+constexpr std::size_t kTableBytesFixed = std::size_t{6} << 20;
+constexpr std::size_t kRowsBytesPerPoint = 50;
+constexpr std::size_t kRowsBytesFixed = std::size_t{1} << 20;
+// Room for the file from the start, or growing would hold it twice: random points on 20 bits take 10.5 bytes, and the
+// entropy coder asks for twice what it expects to fill: for positions on 18 bits 13.5.
+constexpr std::size_t kFileBytesPerPoint = 14;
 constexpr std::size_t kFileBytesFixed = std::size_t{64} << 10;
-
-float metres_of(std::int64_t steps, const CloudGrid& grid)
-{
-    return static_cast<float>(static_cast<double>(steps) * (grid.step_um * 1e-6));
-}
 
 Status check(const PointCloud& cloud)
 {
@@ -62,7 +58,7 @@ int add_attribute(draco::PointCloud& cloud, draco::GeometryAttribute::Type type,
     draco::GeometryAttribute attribute;
     attribute.Init(type, nullptr, static_cast<std::uint8_t>(components), data, normalised,
                    components * draco::DataTypeLength(data), 0);
-    return cloud.AddAttribute(attribute, true, cloud.num_points());
+    return cloud.AddAttribute(attribute, true, 0);
 }
 
 void describe(draco::PointCloud& into, const PointCloud& cloud, const CloudMeta& meta, int confidence_id)
@@ -78,57 +74,82 @@ void describe(draco::PointCloud& into, const PointCloud& cloud, const CloudMeta&
 /// False: Draco refused.
 bool pack(const PointCloud& cloud, const CloudMeta& meta, draco::EncoderBuffer& out)
 {
-    const CloudGrid& grid = cloud.grid;
-    draco::PointCloud points;
-    points.set_num_points(static_cast<std::uint32_t>(cloud.points.size()));
-    const int position = add_attribute(points, draco::GeometryAttribute::POSITION, draco::DT_FLOAT32, 3, false);
-    const int colour = add_attribute(points, draco::GeometryAttribute::COLOR, draco::DT_UINT8, 3, true);
-    const int confidence = add_attribute(points, draco::GeometryAttribute::GENERIC, draco::DT_FLOAT32, 1, false);
-    for (std::uint32_t i = 0; i < points.num_points(); ++i) {
-        const CloudPoint& point = cloud.points[i];
-        const draco::AttributeValueIndex value(i);
-        const float metres[3] = {metres_of(point.x, grid), metres_of(point.y, grid), metres_of(point.z, grid)};
-        const float certainty = static_cast<float>(point.confidence) / 255.0F;
-        points.attribute(position)->SetAttributeValue(value, metres);
-        points.attribute(colour)->SetAttributeValue(value, &point.colour);
-        points.attribute(confidence)->SetAttributeValue(value, &certainty);
-    }
-    describe(points, cloud, meta, confidence);
-
-    draco::ExpertEncoder settings(points);
-    settings.SetSpeedOptions(kSpeed, kSpeed);
-    const float origin[3] = {metres_of(grid.origin[0], grid), metres_of(grid.origin[1], grid),
-                             metres_of(grid.origin[2], grid)};
-    settings.SetAttributeExplicitQuantization(position, grid.bits, 3, origin,
-                                              metres_of((std::int64_t{1} << grid.bits) - 1, grid));
-    const float zero = 0;
-    settings.SetAttributeExplicitQuantization(confidence, kConfidenceBits, 1, &zero, 1.0F);
-    return ThriftyEncoder(points).Encode(settings.options(), &out).ok();
+    draco::PointCloud described; // attributes that are added before it has points take no memory for values
+    add_attribute(described, draco::GeometryAttribute::POSITION, draco::DT_FLOAT32, 3, false);
+    add_attribute(described, draco::GeometryAttribute::COLOR, draco::DT_UINT8, 3, true);
+    const int confidence = add_attribute(described, draco::GeometryAttribute::GENERIC, draco::DT_FLOAT32, 1, false);
+    described.set_num_points(static_cast<std::uint32_t>(cloud.points.size()));
+    describe(described, cloud, meta, confidence);
+    return CloudEncoder(described, cloud).Encode(draco::EncoderOptions::CreateDefaultOptions(), &out).ok();
 }
+
+/// The decoded values of one attribute beside the points that were meant.
+class Comparison
+{
+public:
+    Comparison(const PointCloud& cloud, CloudProof& proof) : cloud_(cloud), proof_(proof)
+    {
+        const Quantisation grid = position_quantisation(cloud.grid);
+        std::copy_n(grid.least, kMostComponents, origin_m_);
+        (void)metres_.Init(grid.range, (1 << grid.bits) - 1);
+    }
+
+    bool operator()(Part part, std::span<const std::int32_t> values) const
+    {
+        for (std::size_t i = 0; i < cloud_.points.size(); ++i) {
+            const std::int32_t* read = values.data() + i * components_of(part);
+            const CloudPoint& meant = cloud_.points[i];
+            const bool same = part == Part::kPosition ? same_place(meant, read)
+                              : part == Part::kColour ? read[0] == stored_channel(meant.colour.r) &&
+                                                            read[1] == stored_channel(meant.colour.g) &&
+                                                            read[2] == stored_channel(meant.colour.b)
+                                                      : read[0] == stored_confidence(meant.confidence);
+            if (!same)
+                return false;
+        }
+        return true;
+    }
+
+private:
+    /// As integers, and as the float32 that a reader makes of them.
+    bool same_place(const CloudPoint& meant, const std::int32_t* read) const
+    {
+        const double step_m = cloud_.grid.step_um * 1e-6;
+        const std::int32_t steps[3] = {meant.x, meant.y, meant.z};
+        bool same = true;
+        for (int axis = 0; axis < 3; ++axis) {
+            const float metres = metres_(read[axis]) + origin_m_[axis];
+            const double off_m = std::fabs(static_cast<double>(metres) - steps[axis] * step_m);
+            proof_.worst_error_um = std::max(proof_.worst_error_um, off_m * 1e6);
+            proof_.least[axis] = std::min(proof_.least[axis], steps[axis]);
+            proof_.most[axis] = std::max(proof_.most[axis], steps[axis]);
+            same = same && read[axis] == steps[axis] - cloud_.grid.origin[axis] && off_m < step_m / 2;
+        }
+        return same;
+    }
+
+    const PointCloud& cloud_;
+    CloudProof& proof_;
+    draco::Dequantizer metres_;
+    float origin_m_[kMostComponents] = {};
+};
 
 Result<CloudProof> prove(const PointCloud& cloud, std::span<const std::byte> file)
 {
-    const DracoPoints decoded = DracoPoints::unpack(file, cloud.points.size());
-    if (!decoded)
-        return failure(Fault::kSoftware, "the encoded cloud cannot be decoded again: report this");
-    const double step_m = cloud.grid.step_um * 1e-6;
+    const Result<CloudOutline> read = outline_of(file, "the encoded cloud");
+    if (!read.ok() || read.value().points != cloud.points.size() || read.value().grid != cloud.grid)
+        return failure(Fault::kSoftware, "the encoded cloud is announced as another one: report this");
     CloudProof proof;
     proof.points = static_cast<std::uint32_t>(cloud.points.size());
-    for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-        const CloudPoint& meant = cloud.points[i];
-        const PlainPoint read = decoded.at(i);
-        const std::int32_t steps[3] = {meant.x, meant.y, meant.z};
-        bool same = read.colour == meant.colour && std::lround(read.confidence * 255.0F) == meant.confidence;
-        for (int axis = 0; axis < 3; ++axis) {
-            const double off_m = std::fabs(static_cast<double>(read.metres[axis]) - steps[axis] * step_m);
-            proof.worst_error_um = std::max(proof.worst_error_um, off_m * 1e6);
-            same = same && off_m < step_m / 2;
-            proof.least[axis] = i == 0 ? steps[axis] : std::min(proof.least[axis], steps[axis]);
-            proof.most[axis] = i == 0 ? steps[axis] : std::max(proof.most[axis], steps[axis]);
-        }
-        if (!same)
-            return failure(Fault::kSoftware, "point %zu of the encoded cloud decodes to another point: report this", i);
+    const CloudPoint& first = cloud.points[0];
+    for (std::int32_t* bounds : {proof.least, proof.most}) {
+        bounds[0] = first.x;
+        bounds[1] = first.y;
+        bounds[2] = first.z;
     }
+    int confidence_bits = 0;
+    if (!unpack(file, read.value(), confidence_bits, Comparison(cloud, proof)) || confidence_bits != kConfidenceBits)
+        return failure(Fault::kSoftware, "the encoded cloud decodes to another one: report this");
     return proof;
 }
 
@@ -136,7 +157,7 @@ Result<CloudProof> prove(const PointCloud& cloud, std::span<const std::byte> fil
 
 std::size_t encode_heap_bytes(std::size_t points)
 {
-    return kEncodeBytesFixed + points * kEncodeBytesPerPoint;
+    return std::max(kTableBytesFixed + points * kTableBytesPerPoint, kRowsBytesFixed + points * kRowsBytesPerPoint);
 }
 
 Result<EncodedCloud> encode_cloud(const PointCloud& cloud, const CloudMeta& meta, std::span<std::byte> heap)

@@ -17,6 +17,7 @@ public:
     explicit Bytes(std::span<const std::byte> bytes) : rest_(bytes) {}
 
     bool broken() const { return broken_; }
+    std::size_t left() const { return rest_.size(); }
     std::uint8_t u8() { return static_cast<std::uint8_t>(little_endian(1)); }
     std::uint32_t little_endian(int count)
     {
@@ -148,6 +149,7 @@ Result<CloudOutline> outline_of(std::span<const std::byte> file, const char* nam
         return damaged(name, "a senseless number of points");
     if (!read_attributes(bytes))
         return damaged(name, "its attributes are not position, colour and confidence");
+    outline.points_at = file.size() - bytes.left();
     return outline;
 }
 

@@ -72,7 +72,7 @@ struct PlyPoint
     float confidence;
 };
 #pragma pack(pop)
-static_assert(sizeof(PlyPoint) == 19);
+static_assert(sizeof(PlyPoint) == kPlyBytesPerPoint);
 
 struct PcdPoint
 {

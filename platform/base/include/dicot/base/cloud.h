@@ -41,6 +41,8 @@ struct CloudGrid
     std::int32_t step_um = 100;         ///< 0.1 mm
     int bits = 14;                      ///< an axis spans 2^bits - 1 steps
     std::int32_t origin[3] = {0, 0, 0}; ///< in steps: the least x, y, z that the grid holds
+
+    friend bool operator==(const CloudGrid&, const CloudGrid&) = default;
 };
 
 /// A borrowed cloud. Every point lies inside the grid.

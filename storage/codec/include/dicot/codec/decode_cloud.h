@@ -17,11 +17,12 @@ inline constexpr std::size_t kMaxCloudFileBytes = std::size_t{64} << 20;
 struct CloudOutline
 {
     std::size_t points = 0;
+    std::size_t points_at = 0; ///< where they begin in the file, in bytes
     CloudGrid grid;
     CloudMeta meta;
 };
 
-/// Reads the outline. Accepts only what encode_cloud() writes; anything else, also a Draco file of another make, is
+/// Reads the outline. Accepts only what encode_cloud() writes or wrote; anything else, also a Draco file of another make, is
 /// refused with `name` in the sentence (Fault::kBadData).
 Result<CloudOutline> outline_of(std::span<const std::byte> file, const char* name);
 

@@ -30,11 +30,12 @@ struct EncodedCloud
     std::size_t heap_peak_bytes = 0; ///< what encoding and proof used of the heap (0 where operator new is not gated)
 };
 
-/// The heap that encode_cloud() needs for a cloud of `points` points, whatever they are.
+/// The heap that encode_cloud() needs for a cloud of `points` points on a grid of 20 bits at most, whatever they are.
 std::size_t encode_heap_bytes(std::size_t points);
 
-/// Encodes as storage/FORMAT.md says: points in their order, positions exactly on the grid. Then decodes the result and
-/// compares every point: a difference in step, colour or confidence is Fault::kSoftware.
+/// Encodes as storage/FORMAT.md says: points in their order, positions exactly on the grid, colours and confidences as
+/// as_stored() rounds them (stored_point.h). Then decodes the result and compares every point with what was to be
+/// stored: a difference is Fault::kSoftware.
 /// Refused: no points, more than kMaxCloudPoints, a point outside the grid; a heap that is too small (Fault::kConfig).
 /// `heap` is lent to the compressor for the call; the result lies in it afterwards.
 Result<EncodedCloud> encode_cloud(const PointCloud& cloud, const CloudMeta& meta, std::span<std::byte> heap);

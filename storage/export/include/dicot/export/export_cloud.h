@@ -5,7 +5,11 @@
 #include "dicot/base/status.h"
 #include "dicot/codec/cloud_meta.h"
 
+#include <cstddef>
+
 namespace dicot {
+
+inline constexpr std::size_t kPlyBytesPerPoint = 19;
 
 /// PLY 1.0, binary little-endian: x y z float (metres), red green blue uchar, confidence float (0..1); comments give
 /// unit, frame and what else `meta` knows. Durable or absent.
