@@ -23,7 +23,7 @@ struct FaultRow
 
 constexpr FaultRow kTable[] = {
     {"eio", EIO, false, 1},         {"eio-on", EIO, true, 5},   {"enospc", ENOSPC, false, 1},
-    {"enospc-on", ENOSPC, true, 1}, {"erofs", EROFS, false, 1}, {"erofs-on", EROFS, true, 1},
+    {"enospc-on", ENOSPC, true, 2}, {"erofs", EROFS, false, 2}, {"erofs-on", EROFS, true, 3},
 };
 
 class StoreOnFailingCard : public ::testing::TestWithParam<FaultRow>

@@ -59,6 +59,35 @@ TEST_F(StoreAfterPowerLoss, keeps_its_promises_when_writes_are_torn)
     hold({.mode = Cut::Mode::kTorn, .seeds = 8, .repairs_every = 6});
 }
 
+/// When the next write to `name` begins, after `from`.
+Moment next_write_to(const std::vector<Change>& log, const std::string& name, Moment from)
+{
+    int node = -1;
+    for (Moment at = 0; at < log.size(); ++at) {
+        if (log[at].kind == Change::Kind::kMake && log[at].name == name)
+            node = log[at].node;
+        if (log[at].kind == Change::Kind::kWrite && log[at].node == node && at >= from)
+            return at;
+    }
+    return kNever;
+}
+
+TEST_F(StoreAfterPowerLoss, keeps_its_promises_while_rows_go_from_the_log_to_the_catalogue)
+{
+    constexpr int kSlots = 63; // SQLite's log is full shortly before
+    recording_ = scene_.record_many(kSlots);
+    ASSERT_EQ(recording_.story.refusals, 0) << recording_.story.first_refusal;
+    const Moment opened = recording_.story.all.front().begin_from;
+    const Moment checkpoint = next_write_to(recording_.log, Store::kCatalogueName, opened);
+    ASSERT_LT(checkpoint, recording_.story.all.back().begin_from) << "the log was not full before the store was closed";
+    const CrashReport report =
+        run_plan(scene_.vfs(), recording_, {.mode = Cut::Mode::kTorn, .seeds = 2, .from = checkpoint - 5});
+    std::printf("%zu cuts, %zu states\n", report.cuts, report.states);
+    EXPECT_GT(report.states, 20U);
+    for (const std::string& failure : report.failures)
+        ADD_FAILURE() << failure;
+}
+
 TEST_F(StoreAfterPowerLoss, keeps_its_promises_when_the_card_fails_once_during_the_repair)
 {
     int cases = 0;
