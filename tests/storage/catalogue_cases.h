@@ -1,9 +1,11 @@
-// Rows for tests, each another one.
+// Rows for tests, each another one, and other processes that do something with catalogues.
 #pragma once
 
 #include "dicot/catalogue/catalogue.h"
 
 #include <string>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace dicot::test {
 
@@ -31,6 +33,34 @@ inline SlotRow slot_row(std::int64_t sequence)
         row.bytes = 900;
     }
     return row;
+}
+
+/// All rows in one transaction, as far as `into`.
+inline Status put_rows(Catalogue& catalogue, std::int64_t from, std::int64_t into)
+{
+    TRY(catalogue.begin());
+    for (std::int64_t i = from; i <= into; ++i)
+        TRY(catalogue.put(slot_row(i)));
+    return catalogue.commit();
+}
+
+/// `child` in a process of its own: its exit code, or the signal that ended it, negative.
+template <typename Child>
+int run_apart(Child child)
+{
+    const pid_t pid = fork();
+    if (pid == 0)
+        _exit(child());
+    int status = 0;
+    waitpid(pid, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+/// A catalogue of so many rows, closed. Whether it worked.
+inline bool make_catalogue(const std::string& path, std::int64_t rows)
+{
+    const auto catalogue = Catalogue::open(path, Catalogue::Access::kWrite);
+    return catalogue.ok() && put_rows(*catalogue.value(), 1, rows).ok();
 }
 
 } // namespace dicot::test

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -38,6 +37,12 @@ std::size_t phase_of(const Story& story, Moment moment)
     return phase;
 }
 
+/// What the judge did afterwards is not part of it.
+std::vector<Change> repair_of(const CrashMedium& card, Moment opened)
+{
+    return {card.log().begin(), card.log().begin() + static_cast<std::ptrdiff_t>(opened)};
+}
+
 class Run
 {
 public:
@@ -67,11 +72,8 @@ private:
 
 void Run::keep(const CrashCase& which, const Verdict& verdict)
 {
-    std::string text = which.text();
-    for (const std::string& sentence : verdict)
-        text += "\n    " + sentence;
     if (!verdict.empty())
-        report_.failures.push_back(text);
+        report_.failures.push_back(words_of(which, verdict));
 }
 
 void Run::cut(const Cut& cut)
@@ -89,11 +91,12 @@ void Run::cut(const Cut& cut)
 
 void Run::cut_repair(const Cut& cut, const CrashMedium& repaired, Moment opened)
 {
+    const std::vector<Change> repair = repair_of(repaired, opened);
     Dice dice{cut.at * 31 + cut.seed};
     for (const auto mode : {Cut::Mode::kInOrder, Cut::Mode::kSubset, Cut::Mode::kSubset, Cut::Mode::kTorn}) {
-        const Cut second{mode, static_cast<std::size_t>(dice.below(opened + 1)),
+        const Cut second{mode, static_cast<std::size_t>(dice.below(repair.size() + 1)),
                          mode == Cut::Mode::kInOrder ? 0U : static_cast<unsigned>(dice.below(100))};
-        CrashMedium card{surviving(repaired.start(), repaired.log(), second)};
+        CrashMedium card{surviving(repaired.start(), repair, second)};
         if (!is_new(card.start(), cut.at))
             continue;
         ++report_.repair_states;
@@ -145,33 +148,27 @@ std::optional<CrashCase> CrashCase::parse(const std::string& text)
     return which.repair_cut ? std::optional{which} : std::nullopt;
 }
 
+std::string words_of(const CrashCase& which, const Verdict& verdict)
+{
+    std::string words = which.text();
+    for (const std::string& sentence : verdict)
+        words += "\n    " + sentence;
+    return words;
+}
+
 Verdict run_case(CrashVfs& vfs, const Recording& recording, const CrashCase& which)
 {
     CrashMedium card{surviving({}, recording.log, which.cut)};
     const Recovered first = judge(card, vfs, recording.story, which.cut.at);
     if (!which.repair_cut)
         return first.verdict;
-    CrashMedium again{surviving(card.start(), card.log(), *which.repair_cut)};
+    CrashMedium again{surviving(card.start(), repair_of(card, first.opened), *which.repair_cut)};
     return judge(again, vfs, recording.story, which.cut.at).verdict;
 }
 
 CrashReport run_plan(CrashVfs& vfs, const Recording& recording, const CrashPlan& plan)
 {
-    const char* only = std::getenv("DICOT_CRASH_CASE");
-    if (only == nullptr)
-        return Run(vfs, recording, plan).run();
-    const auto which = CrashCase::parse(only);
-    if (!which)
-        throw std::runtime_error("DICOT_CRASH_CASE is no case, such as subset:37:5");
-    CrashReport report;
-    report.cuts = report.states = 1;
-    const Verdict verdict = run_case(vfs, recording, *which);
-    std::string text = which->text();
-    for (const std::string& sentence : verdict)
-        text += "\n    " + sentence;
-    if (!verdict.empty())
-        report.failures.push_back(text);
-    return report;
+    return Run(vfs, recording, plan).run();
 }
 
 } // namespace dicot::test

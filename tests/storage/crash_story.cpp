@@ -27,7 +27,7 @@ std::string record_of(std::int64_t sequence, std::int64_t began_us, const Conten
     facts.sequence = sequence;
     facts.began_us = began_us;
     facts.done = content.done;
-    facts.reason = content.reason;
+    facts.reason = content.reason.c_str();
     facts.clock_trust = "set";
     facts.points = content.done ? sequence * 10 : 0;
     char text[kMaxPlainRecordBytes];
@@ -51,6 +51,21 @@ Status add_all(Store& store, const Content& content)
     return {};
 }
 
+Status begin(CrashMedium& card, Store& store, std::int64_t began_us, Told& told)
+{
+    const std::int64_t before = store.sequence();
+    const Moment from = card.log().size();
+    const Status begun = store.begin({began_us, {}});
+    if (store.sequence() == before)
+        return begun.ok() ? failure(Fault::kSoftware, "a snapshot without a number of its own") : begun;
+    told.begin_from = from;
+    told.sequence = store.sequence();
+    told.folder = store.folder();
+    TRY(begun);
+    told.begun = card.log().size();
+    return {};
+}
+
 Status commit(CrashMedium& card, Store& store, Told& told, const Content& content)
 {
     told.contents.push_back(content);
@@ -66,6 +81,8 @@ public:
     Teller(CrashMedium& card, CrashVfs& vfs, const StoryRules& rules) : card_(card), rules_(rules) { vfs.use(card); }
 
     Story tell();
+    Story tell_until_full(int slots);
+    Story tell_with_a_thief();
 
 private:
     bool open();
@@ -129,12 +146,7 @@ void Teller::miss(std::int64_t began_us)
 {
     Told told;
     const Status missed = [&]() -> Status {
-        told.begin_from = card_.log().size();
-        const Status begun = store_->begin({began_us, {}});
-        told.sequence = store_->sequence();
-        told.folder = store_->folder();
-        TRY(begun);
-        told.begun = card_.log().size();
+        TRY(begin(card_, *store_, began_us, told));
         TRY(add(*store_, "left.jpg", bytes_of_seed(seed_++, rules_.most_file_bytes / 2)));
         TRY(store_->take_back());
         Content content{false, "no camera", {}};
@@ -143,7 +155,8 @@ void Teller::miss(std::int64_t began_us)
         return commit(card_, *store_, told, content);
     }();
     noted(missed);
-    story_.all.push_back(told);
+    if (told.begin_from != kNever)
+        story_.all.push_back(told);
 }
 
 void Teller::pull(std::initializer_list<std::size_t> which)
@@ -199,17 +212,32 @@ Story Teller::tell()
     return story_;
 }
 
+Story Teller::tell_until_full(int slots)
+{
+    for (int k = 0; open() && k < slots; ++k)
+        snapshot(kNextDay + k * 60 * kSecond);
+    store_.reset();
+    return story_;
+}
+
+Story Teller::tell_with_a_thief()
+{
+    if (!open())
+        return story_;
+    snapshot(kNextDay);
+    card_.set_capacity(card_.now().used_bytes() + 3 * 4096);
+    rules_.store.reserve_bytes = 0;
+    snapshot(kNextDay + 60 * kSecond);
+    store_.reset();
+    return story_;
+}
+
 } // namespace
 
 Status store_snapshot(CrashMedium& card, Store& store, std::int64_t began_us, unsigned seed,
                       std::size_t most_file_bytes, Told& told)
 {
-    told.begin_from = card.log().size();
-    const Status begun = store.begin({began_us, {}});
-    told.sequence = store.sequence();
-    told.folder = store.folder();
-    TRY(begun);
-    told.begun = card.log().size();
+    TRY(begin(card, store, began_us, told));
     TRY(store.make_room());
     Dice dice{seed};
     Content content{true, "", {}};
@@ -223,6 +251,16 @@ Status store_snapshot(CrashMedium& card, Store& store, std::int64_t began_us, un
 Story tell(CrashMedium& card, CrashVfs& vfs, const StoryRules& rules)
 {
     return Teller(card, vfs, rules).tell();
+}
+
+Story tell_until_full(CrashMedium& card, CrashVfs& vfs, const StoryRules& rules, int slots)
+{
+    return Teller(card, vfs, rules).tell_until_full(slots);
+}
+
+Story tell_with_a_thief(CrashMedium& card, CrashVfs& vfs, const StoryRules& rules)
+{
+    return Teller(card, vfs, rules).tell_with_a_thief();
 }
 
 } // namespace dicot::test

@@ -59,6 +59,11 @@ struct StoryRules
 /// 1970. When the store says no, the snapshot becomes a miss as in a real run, and the story goes on.
 Story tell(CrashMedium& card, CrashVfs& vfs, const StoryRules& rules = {});
 
+/// Only snapshots, `slots` of them, on a card that becomes full.
+Story tell_until_full(CrashMedium& card, CrashVfs& vfs, const StoryRules& rules, int slots);
+/// Two snapshots; in the midst of the second one somebody else takes all the room there is.
+Story tell_with_a_thief(CrashMedium& card, CrashVfs& vfs, const StoryRules& rules);
+
 /// One more snapshot, into `told`; what the store says to it.
 Status store_snapshot(CrashMedium& card, Store& store, std::int64_t began_us, unsigned seed,
                       std::size_t most_file_bytes, Told& told);

@@ -50,6 +50,7 @@ private:
     void look_at_interrupted(const Told& told);
     void look_for_strangers();
     void verify();
+    void look_at_quarantine();
     bool is_idle_start() const;
     void store_another();
     bool may_be(Moment from) const { return from <= moment_; }
@@ -179,7 +180,7 @@ void Judge::look_for_strangers()
     const CardState& state = card_.now();
     for (const auto& [day, number] : state.nodes[CardState::kRoot].entries) {
         const CardNode& node = state.nodes[static_cast<std::size_t>(number)];
-        if (!node.folder || day.size() != 10)
+        if (!node.folder || day[0] < '0' || day[0] > '9')
             continue;
         for (const auto& [name, inside] : node.entries)
             if (std::string path = day; folders.count(path.append("/").append(name)) == 0)
@@ -199,10 +200,20 @@ void Judge::verify()
         [](int, int) {});
     if (!report.ok())
         say(std::string{"verify: "} + report.status().message());
-    else if (report.value().in_quarantine != 0)
-        say("something went to quarantine");
+    look_at_quarantine();
     if (store_->start_report().left_over != 0)
         say("something is left over");
+}
+
+/// A catalogue may be damaged while it is made for the first time, and at no other moment.
+void Judge::look_at_quarantine()
+{
+    const auto is_stored = [&](const Told& told) { return told.acknowledged <= moment_; };
+    const bool is_young = std::none_of(story_.all.begin(), story_.all.end(), is_stored);
+    const CardState& state = card_.now();
+    for (const auto& [name, number] : state.nodes[static_cast<std::size_t>(state.find("quarantine"))].entries)
+        if (!is_young || name.rfind(Store::kCatalogueName, 0) != 0)
+            say(name + " is in quarantine");
 }
 
 bool Judge::is_idle_start() const

@@ -43,7 +43,7 @@ public:
 private:
     struct Range
     {
-        std::int64_t first = 1, last = std::numeric_limits<std::int64_t>::max();
+        std::int64_t first = std::numeric_limits<std::int64_t>::min(), last = std::numeric_limits<std::int64_t>::max();
     };
     /// Every row of the range, until `visit` returns false. Nothing is left to SQLite that would let it wander through
     /// a forged tree for ever: each step gives a row, and a sequence that turns back ends it.

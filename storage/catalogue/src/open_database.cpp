@@ -12,7 +12,7 @@
 namespace dicot {
 namespace {
 
-constexpr int kBusyMs = 5000;
+constexpr int kBusyMs = 3000;
 constexpr std::int64_t kSchemaVersion = 1;
 constexpr std::int64_t kApplicationId = 0x6469636F; // "dico"
 
@@ -90,7 +90,8 @@ Status make_schema(const Database& database)
 
 Status be_ready_to_write(const Database& database)
 {
-    const bool is_new = TRY(number_of(database, "SELECT count(*) FROM sqlite_master")) == 0;
+    const bool is_new = TRY(number_of(database, "SELECT count(*) FROM sqlite_master")) == 0 &&
+                        TRY(number_of(database, "PRAGMA user_version")) == 0;
     if (!is_new)
         TRY(check_schema(database)); // a file that is not ours is not changed
     else // no journal beside a file that is being made: should power fail now, it is made again
@@ -106,10 +107,13 @@ Status be_ready_to_write(const Database& database)
 /// That an honest page tree stands in the file: rows are put into it from now on.
 Status check_structure(const Database& database)
 {
-    Statement check = TRY(Statement::prepare(database, "PRAGMA quick_check(1)"));
-    if (!TRY(check.step()) || check.text(0) != "ok")
-        return database.damaged("its pages contradict each other");
-    return {};
+    // A page that cannot be read is a complaint like any other: once is no reason to part with the file.
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        Statement check = TRY(Statement::prepare(database, "PRAGMA quick_check(1)"));
+        if (TRY(check.step()) && check.text(0) == "ok")
+            return {};
+    }
+    return database.damaged("its pages contradict each other");
 }
 
 } // namespace

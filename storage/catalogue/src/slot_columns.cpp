@@ -85,53 +85,21 @@ bool read_optional(const Statement& statement, int column, std::optional<std::in
 } // namespace
 
 // Binary digests and no index: a row is what a card has to write for each snapshot, and 10,000 rows are read at once.
-const char* const
-    kSlotTable =
-        "CREATE TABLE slot(sequence INTEGER PRIMARY KEY CHECK(sequence BETWEEN 1 AND 999999999), "
-        "began_us INTEGER NOT NULL CHECK(" DICOT_TIME(
-            "began_us") " AND began_us%1000000=0), "
-                        "due_us INTEGER CHECK(due_us IS NULL OR (" DICOT_TIME("due_us") ")), " DICOT_NUMBER("done", "1") ", " DICOT_TEXT(
-                            "reason",
-                            "255") ", " DICOT_TEXT("clock_trust",
-                                                   "31") ", " DICOT_NUMBER("points",
-                                                                           "4294967295") ", " DICOT_NUMBER("bytes",
-                                                                                                           "10995116277"
-                                                                                                           "76") ", "
-                                                                                                                 "sums "
-                                                                                                                 "BLOB "
-                                                                                                                 "CHECK"
-                                                                                                                 "(sums"
-                                                                                                                 " IS "
-                                                                                                                 "NULL "
-                                                                                                                 "OR "
-                                                                                                                 "(type"
-                                                                                                                 "of("
-                                                                                                                 "sums)"
-                                                                                                                 "='"
-                                                                                                                 "blob'"
-                                                                                                                 " AND "
-                                                                                                                 "lengt"
-                                                                                                                 "h("
-                                                                                                                 "sums)"
-                                                                                                                 "=32))"
-                                                                                                                 ", "
-                                                                                                                 "pulle"
-                                                                                                                 "d_us "
-                                                                                                                 "INTEG"
-                                                                                                                 "ER "
-                                                                                                                 "CHECK"
-                                                                                                                 "(pull"
-                                                                                                                 "ed_"
-                                                                                                                 "us "
-                                                                                                                 "IS "
-                                                                                                                 "NULL "
-                                                                                                                 "OR "
-                                                                                                                 "(" DICOT_TIME("pulled_us") ")), " DICOT_NUMBER(
-                                                                                                                     "k"
-                                                                                                                     "e"
-                                                                                                                     "p"
-                                                                                                                     "t",
-                                                                                                                     "3") ")";
+// clang-format off
+const char* const kSlotTable =
+    "CREATE TABLE slot("
+    "sequence INTEGER PRIMARY KEY CHECK(sequence BETWEEN 1 AND 999999999), "
+    "began_us INTEGER NOT NULL CHECK(" DICOT_TIME("began_us") " AND began_us%1000000=0), "
+    "due_us INTEGER CHECK(due_us IS NULL OR (" DICOT_TIME("due_us") ")), "
+    DICOT_NUMBER("done", "1") ", "
+    DICOT_TEXT("reason", "255") ", "
+    DICOT_TEXT("clock_trust", "31") ", "
+    DICOT_NUMBER("points", "4294967295") ", "
+    DICOT_NUMBER("bytes", "1099511627776") ", "
+    "sums BLOB CHECK(sums IS NULL OR (typeof(sums)='blob' AND length(sums)=32)), "
+    "pulled_us INTEGER CHECK(pulled_us IS NULL OR (" DICOT_TIME("pulled_us") ")), "
+    DICOT_NUMBER("kept", "3") ")";
+// clang-format on
 
 Status check_slot(const SlotRow& row)
 {

@@ -5,6 +5,7 @@
 #include "dicot/base/utc_time.h"
 
 #include <array>
+#include <utility>
 
 namespace dicot {
 namespace {
@@ -32,16 +33,12 @@ Result<std::int64_t> newest_here(Catalogue& catalogue)
     return newest;
 }
 
-Status let_go(Medium& medium, Catalogue& catalogue, SlotRow row)
+/// The row follows when there is room for it again: finish_leaving().
+Status move_aside(Medium& medium, const SlotRow& row)
 {
     const StorePath from = folder_of(row);
     const StorePath to = join(kLeaving, snapshot_name({row.sequence, row.began_us}).view());
-    TRY(on_card(medium.rename(from.c_str(), to.c_str()), from.c_str(), "renaming"));
-    TRY(empty_folder(medium, to));
-    (void)medium.remove_folder(utc_day(row.began_us).c_str()); // the last one of its day; otherwise it is refused
-    row.kept = Kept::kPruned;
-    // The emptied folder stays until the row is durable: finish_leaving().
-    return catalogue.put(row);
+    return on_card(medium.rename(from.c_str(), to.c_str()), from.c_str(), "renaming");
 }
 
 } // namespace
@@ -78,7 +75,7 @@ Result<PruneReport> prune_folders(Medium& medium, Catalogue& catalogue, Prune pr
                     continue;
                 going(row);
                 if (!wish.dry_run)
-                    TRY(let_go(medium, catalogue, row));
+                    TRY(move_aside(medium, row));
                 ++report.removed;
                 report.bytes += static_cast<std::uint64_t>(row.bytes);
             }
@@ -94,6 +91,7 @@ Result<PruneReport> prune_folders(Medium& medium, Catalogue& catalogue, Prune pr
 Status finish_leaving(Medium& medium, Catalogue& catalogue)
 {
     std::array<StorePath, kBatch> emptied;
+    bool synced = false;
     for (;;) {
         std::size_t count = 0;
         const Errno listed = medium.list(kLeaving, [&](const MediumEntry& entry) {
@@ -104,15 +102,20 @@ Status finish_leaving(Medium& medium, Catalogue& catalogue)
         TRY(on_card(listed, kLeaving, "listing it"));
         if (count == 0)
             return {};
+        // What is gone must not come to be missing in its old place.
+        if (!std::exchange(synced, true))
+            TRY(on_card(medium.sync_all(), kLeaving, "syncing"));
         for (std::size_t i = 0; i < count; ++i) {
             const SnapshotName name = *parse_snapshot_name(emptied[i].view());
             TRY(empty_folder(medium, join(kLeaving, emptied[i].view())));
+            (void)medium.remove_folder(utc_day(name.began_us).c_str()); // refused if it was not the last of its day
             SlotRow row = TRY(catalogue.find(name.sequence)).value_or(row_named(name));
             if (row.kept != Kept::kPruned && row.began_us == name.began_us) {
                 row.kept = Kept::kPruned;
                 TRY(catalogue.put(row));
             }
         }
+        // The emptied folder stays until its row is durable.
         TRY(catalogue.sync());
         for (std::size_t i = 0; i < count; ++i) {
             const StorePath path = join(kLeaving, emptied[i].view());

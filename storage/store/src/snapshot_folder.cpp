@@ -115,7 +115,13 @@ bool is_whole(Medium& medium, const StorePath& folder, const SnapshotName& name,
     for (const Sum& sum : sums.value().sums.all())
         if (!check_file(medium, folder, sum, desk, bytes).ok())
             return false;
-    return row_of(medium, folder, name, desk).ok();
+    // What was taken back may still be there.
+    bool is_alone = true;
+    const Errno listed = medium.list(folder.c_str(), [&](const MediumEntry& entry) {
+        is_alone = entry.name == kSums || sums.value().sums.find(entry.name) != nullptr;
+        return is_alone;
+    });
+    return listed.ok() && is_alone && row_of(medium, folder, name, desk).ok();
 }
 
 Status for_each_folder(Medium& medium, FunctionRef<bool(const StorePath& folder, const SnapshotName& name)> visit)
