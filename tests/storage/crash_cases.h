@@ -43,6 +43,9 @@ struct CrashCase
 /// What the judge says after it.
 Verdict run_case(CrashVfs& vfs, const Recording& recording, const CrashCase& which);
 
+/// The case's id, and under it the sentences.
+std::string words_of(const CrashCase& which, const Verdict& verdict);
+
 struct CrashPlan
 {
     Cut::Mode mode = Cut::Mode::kInOrder;
@@ -58,7 +61,7 @@ struct CrashReport
     std::vector<std::string> failures; ///< each begins with the case's id
 };
 
-/// Cuts at each change of the recording. If the environment has DICOT_CRASH_CASE, that case alone, whatever the plan.
+/// Cuts at each change of the recording.
 CrashReport run_plan(CrashVfs& vfs, const Recording& recording, const CrashPlan& plan);
 
 } // namespace dicot::test
