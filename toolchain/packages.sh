@@ -12,7 +12,8 @@ dicot_packages() {
         clang) echo "clang-14 libclang-rt-14-dev" ;;
         lint) echo "clang-format-14 clang-tidy-14 shellcheck" ;;
         cross) echo "g++-aarch64-linux-gnu g++-arm-linux-gnueabihf qemu-user mmdebstrap" ;;
-        vm) echo "g++-aarch64-linux-gnu mmdebstrap qemu-system-arm kmod cpio binutils" ;;
+        vm) echo "g++-aarch64-linux-gnu mmdebstrap qemu-system-arm kmod cpio binutils
+            e2fsprogs" ;;
         *)
             echo "dicot: there is no purpose '$1' in toolchain/packages.sh" >&2
             return 64

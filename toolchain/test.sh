@@ -147,10 +147,11 @@ clang() {
     count_ctest .build/clang -j "$(nproc)" -LE accuracy || return
 }
 
+# clang's sanitizers, and the tree whose fuzz targets the stage fuzz runs: one instrumented build for both.
 asan() {
-    build asan || return
+    build fuzz || return
     # Three that repeat for minutes what others do once.
-    count_ctest .build/asan -j "$(nproc)" \
+    count_ctest .build/fuzz -j "$(nproc)" -LE fuzz \
         -E 'SpreadOfManyCalibrations|SpreadsAsItsCovarianceSays|KeptPairsGiveBeforeRealCameras' || return
 }
 
@@ -207,7 +208,7 @@ purposes="build quickstart test"
 for name in $stages; do
     case $name in
         lint) purposes="$purposes clang lint" ;;
-        clang | fuzz) purposes="$purposes clang" ;;
+        asan | clang | fuzz) purposes="$purposes clang" ;;
         cross | vm) purposes="$purposes $name" ;;
     esac
 done

@@ -5,6 +5,7 @@
 #include "sealed_heap.h"
 #include "store/slot_record.h"
 
+#include "dicot/base/printable.h"
 #include "dicot/base/utc_time.h"
 #include "dicot/os/process_memory.h"
 #include "dicot/record/record.h"
@@ -108,7 +109,7 @@ Status store_it(SnapshotTold& told, const ClockReading& clock, Store& store)
     TRY(store.add("record.json", [&](ByteSink& sink) { return sink.write(std::as_bytes(std::span{text})); }));
     SlotOutcome outcome;
     outcome.done = done;
-    outcome.reason = told.status.message();
+    outcome.reason = printable<outcome.reason.kCapacity>(told.status.message()); // as the record's reader has it
     outcome.clock_trust = name_of(clock.trust);
     outcome.points = done ? told.record["cloud"]["points"].get<std::int64_t>() : 0;
     return store.commit(outcome);
@@ -160,6 +161,8 @@ Result<SnapshotTold> take_snapshot(const Config& config, const SnapshotWords& wo
         told.status = stored; // what cannot be stored was not done
     }
     if (!told.status.ok()) {
+        told.record.erase("cloud"); // taken back as its file is
+        told.record.erase("calibration_id");
         stored = store.take_back();
         if (stored.ok())
             stored = store_it(told, clock, store);

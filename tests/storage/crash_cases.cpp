@@ -106,7 +106,7 @@ void Run::cut_repair(const Cut& cut, const CrashMedium& repaired, Moment opened)
 
 CrashReport Run::run()
 {
-    for (std::size_t at = 0; at <= recording_.log.size(); ++at)
+    for (std::size_t at = plan_.from; at <= recording_.log.size(); ++at)
         for (unsigned seed = 0; seed < plan_.seeds && !is_done(); ++seed)
             cut({plan_.mode, at, seed});
     return report_;
@@ -126,6 +126,17 @@ Recording CrashScene::record(const StoryRules& rules)
     CrashMedium card;
     Recording recording;
     recording.story = tell(card, *vfs_, rules);
+    recording.log = card.log();
+    return recording;
+}
+
+Recording CrashScene::record_many(int slots)
+{
+    StoryRules rules;
+    rules.most_file_bytes = 600;
+    CrashMedium card;
+    Recording recording;
+    recording.story = tell_until_full(card, *vfs_, rules, slots);
     recording.log = card.log();
     return recording;
 }

@@ -24,6 +24,8 @@ public:
     CrashScene();
 
     Recording record(const StoryRules& rules = {});
+    /// Nothing but small snapshots.
+    Recording record_many(int slots);
     CrashVfs& vfs() { return *vfs_; }
 
 private:
@@ -51,6 +53,7 @@ struct CrashPlan
     Cut::Mode mode = Cut::Mode::kInOrder;
     unsigned seeds = 1;
     std::size_t repairs_every = 0; ///< of so many states, one has its repair cut too, in every mode; 0: none
+    Moment from = 0;               ///< where the first cut is
     std::size_t most_failures = 8; ///< then it ends
 };
 

@@ -214,7 +214,9 @@ Story Teller::tell()
 
 Story Teller::tell_until_full(int slots)
 {
-    for (int k = 0; open() && k < slots; ++k)
+    if (!open())
+        return story_;
+    for (int k = 0; k < slots; ++k)
         snapshot(kNextDay + k * 60 * kSecond);
     store_.reset();
     return story_;

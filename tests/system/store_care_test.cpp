@@ -169,6 +169,39 @@ TEST_F(StoreCare, ACardWithoutRoomIsAMissWithFiguresAndRemedy)
                 testing::ContainsRegex("(room for 0.0 days|not known yet)"));
 }
 
+TEST_F(StoreCare, AFileThatCannotBeWrittenIsAMissWithoutPictures)
+{
+    const std::string root = copy();
+    // No file may be larger than 100 KiB: the cloud is.
+    const ToolRun run =
+        test::run("trap '' XFSZ; ulimit -f 200; " + std::string{DICOT_PROGRAM} + " snap -o " + root + config());
+    EXPECT_EQ(run.exit_code, 74) << run.output;
+    EXPECT_THAT(run.output, HasSubstr("cloud.drc: "));
+    const fs::path missed = snapshots(root).back();
+    EXPECT_FALSE(fs::exists(missed / "left.jpg"));
+    const json record = json::parse(test::text_of(missed / "record.json"));
+    EXPECT_EQ(record["sequence"], 4);
+    EXPECT_EQ(record["outcome"], "missed");
+    EXPECT_FALSE(record.contains("cloud"));
+    EXPECT_TRUE(record.contains("shot"));
+    EXPECT_EQ(ask("verify", root).exit_code, 0);
+}
+
+TEST_F(StoreCare, AReasonTooLongForItsRowIsTheSameInRecordAndRow)
+{
+    const std::string root = copy();
+    std::string name;
+    for (int i = 0; i < 90; ++i)
+        name += i % 7 == 0 ? "x" : "ü";
+    std::ofstream(folder_->path("long.toml")) << "[cameras]\nleft = 'replay:" << name << "'\nright = 'replay:" << name
+                                              << "'\n[rig]\nfile = 'rig.yaml'\n[output]\ndevice = 'bench'\n";
+    const ToolRun run = dicot("snap -o " + root + " --config " + folder_->path("long.toml"));
+    EXPECT_NE(run.exit_code, 0);
+    EXPECT_THAT(run.output, HasSubstr("the miss is recorded in"));
+    const ToolRun verified = ask("verify", root);
+    EXPECT_EQ(verified.exit_code, 0) << verified.output;
+}
+
 TEST_F(StoreCare, OnlyWhatTheRuleAllowsIsPrunedAndNeverTheNewest)
 {
     const std::string root = copy();

@@ -18,6 +18,10 @@ if(DICOT_SANITIZE)
   add_compile_options(-fsanitize=${DICOT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${DICOT_SANITIZE})
 endif()
-if(DICOT_FUZZ)
-  add_compile_options(-fsanitize=fuzzer-no-link)
+
+# For sources whose own loops are short, most of what there is to compile: optimising them under AddressSanitizer takes
+# three times as long as compiling them.
+set(DICOT_COMPILED_QUICKLY "")
+if(DICOT_SANITIZE MATCHES "address")
+  set(DICOT_COMPILED_QUICKLY -O0)
 endif()

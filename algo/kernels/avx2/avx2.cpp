@@ -302,7 +302,7 @@ struct InnerRemap
     static Vec everywhere(const std::uint8_t* from)
     {
         // A broadcast from memory costs a load alone, and the blends that follow may run on any port.
-        return _mm256_castpd_si256(_mm256_broadcast_sd(reinterpret_cast<const double*>(from)));
+        return _mm256_broadcastq_epi64(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from)));
     }
 
     // Red, green and blue of pixel kFirst in the lower half and of pixel kFirst + 4 in the upper, 32 bits each.

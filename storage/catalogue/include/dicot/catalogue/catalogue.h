@@ -56,7 +56,7 @@ struct SlotTotals
 /// How fast the card fills: of the newest rows.
 struct SlotPace
 {
-    double bytes_per_day = 0;      ///< 0: not known, there are fewer than two or their clock stood still
+    double bytes_per_day = 0;      ///< 0: not known, they are of less than six hours
     double bytes_per_snapshot = 0; ///< of those done
     std::int64_t most_bytes = 0;   ///< largest of them
 };
