@@ -11,6 +11,7 @@
 #include "dicot/os/output_file.h"
 #include "dicot/os/process_memory.h"
 #include "dicot/picture/write_picture.h"
+#include "dicot/record/record.h"
 
 #include <nlohmann/json.hpp>
 
@@ -117,12 +118,12 @@ Status run(const Words& words)
     (void)take_picture<Rgb8>(measure, rig.width(), rig.height());
     (void)measure.take<std::byte>(Shot::scratch_bytes(rig.width(), rig.height()));
     MemoryBlock memory = TRY(MemoryBlock::map(measure.peak()));
-    Shot shot(rig, loaded.config, "");
+    Shot shot(rig, loaded.config, nullptr);
     nlohmann::json pairs = nlohmann::json::array();
     std::vector<std::string> warnings;
     const Status status = take_pairs(words, shot, memory, pairs, warnings);
 
-    nlohmann::json record = {{"format", "dicot record 1"},
+    nlohmann::json record = {{"format", kRecordFormat},
                              {"software", "dicot " DICOT_VERSION},
                              {"outcome", status.ok() ? "done" : "missed"},
                              {"reason", status.ok() ? nlohmann::json() : nlohmann::json(status.message())},

@@ -7,7 +7,6 @@
 #include "dicot/cloud/render.h"
 #include "dicot/export/export_cloud.h"
 #include "dicot/matching/matcher.h"
-#include "dicot/os/output_file.h"
 #include "dicot/picture/write_picture.h"
 
 #include <optional>
@@ -17,6 +16,11 @@ namespace dicot::app {
 namespace {
 
 constexpr int kJpegQuality = 90;
+
+Status put_png(FileShelf& shelf, const std::string& name, ImageView<const Rgb8> picture)
+{
+    return shelf.put(name.c_str(), [&](ByteSink& sink) { return write_png(sink, name.c_str(), picture); });
+}
 
 } // namespace
 
@@ -35,7 +39,7 @@ Result<std::unique_ptr<CloudWork>> CloudWork::make(const CloudPlan& plan, std::s
     return work;
 }
 
-Status CloudWork::see(PairSource& source, const PictureNames& names, bool shows_progress)
+Status CloudWork::see(PairSource& source, const PictureNames& names, FileShelf& shelf, bool shows_progress)
 {
     StopWatch watch;
     times = {};
@@ -59,7 +63,8 @@ Status CloudWork::see(PairSource& source, const PictureNames& names, bool shows_
         times.read_s = watch.lap_s();
     }
     if (!names.left.empty())
-        TRY(write_jpeg(names.left.c_str(), left, kJpegQuality));
+        TRY(shelf.put(names.left.c_str(),
+                      [&](ByteSink& sink) { return write_jpeg(sink, names.left.c_str(), left, kJpegQuality); }));
     times.pictures_s = watch.lap_s();
 
     Matcher matcher = TRY(Matcher::make(width, height, plan_.match, *plan_.kernels, plan_.threads, stage));
@@ -78,28 +83,25 @@ Status CloudWork::see(PairSource& source, const PictureNames& names, bool shows_
     times.triangulate_s = watch.lap_s();
     if (!names.disparity.empty() && !cloud_.points.empty()) {
         paint_disparities(map, painted);
-        TRY(write_png(names.disparity.c_str(), painted));
+        TRY(put_png(shelf, names.disparity, painted));
     }
     times.pictures_s += watch.lap_s();
     return {};
 }
 
-Status CloudWork::encode()
+Status CloudWork::encode(const CloudMeta& meta)
 {
     StopWatch watch;
     Arena stage = bench_.next_stage();
-    encoded_ = TRY(encode_cloud(cloud_, plan_.meta, stage.take<std::byte>(encode_heap_bytes(cloud_.points.size()))));
+    encoded_ = TRY(encode_cloud(cloud_, meta, stage.take<std::byte>(encode_heap_bytes(cloud_.points.size()))));
     times.encode_s = watch.lap_s();
     return {};
 }
 
-Status CloudWork::write_cloud(const std::string& path)
+Status CloudWork::write_cloud(const char* name, FileShelf& shelf)
 {
     StopWatch watch;
-    OutputFile file;
-    TRY(file.open(path.c_str()));
-    TRY(file.write(encoded_.bytes));
-    TRY(file.commit());
+    TRY(shelf.put(name, [this](ByteSink& sink) { return sink.write(encoded_.bytes); }));
     times.write_s += watch.lap_s();
     return {};
 }
@@ -112,7 +114,7 @@ Status CloudWork::write_ply(const std::string& path)
     return {};
 }
 
-Status CloudWork::write_preview(const PictureNames& names)
+Status CloudWork::write_preview(const PictureNames& names, FileShelf& shelf)
 {
     if (names.preview.empty())
         return {};
@@ -121,7 +123,7 @@ Status CloudWork::write_preview(const PictureNames& names)
     const PreviewSize size = preview_size(plan_.rig.width, plan_.rig.height);
     const auto picture = take_picture<Rgb8>(stage, size.width, size.height);
     render_two_views(cloud_, plan_.rig.focal_px, picture, stage);
-    TRY(write_png(names.preview.c_str(), picture));
+    TRY(put_png(shelf, names.preview, picture));
     times.pictures_s += watch.lap_s();
     return {};
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cloud_plan.h"
+#include "file_shelf.h"
 #include "process_bench.h"
 
 #include "dicot/base/image.h"
@@ -49,7 +50,7 @@ private:
     std::int64_t last_us_ = monotonic_us();
 };
 
-/// What is written beside the cloud; empty names are left out.
+/// What is put on the shelf beside the cloud; empty names are left out.
 struct PictureNames
 {
     std::string left;      ///< as it was matched, .jpg
@@ -61,17 +62,17 @@ struct PictureNames
 class CloudWork
 {
 public:
-    /// Takes all memory and starts the threads. `scratch_bytes`: what PairSource::fill() needs.
+    /// Takes all memory and starts the threads. `scratch_bytes`: what PairSource::fill() needs. `plan` is borrowed.
     static Result<std::unique_ptr<CloudWork>> make(const CloudPlan& plan, std::size_t scratch_bytes);
 
-    /// From the source to points, matched with a bar of progress where `shows_progress`. Errors: the source's, those of
-    /// write_png().
-    Status see(PairSource& source, const PictureNames& names, bool shows_progress);
-    /// Compresses what was seen and proves it. Errors: those of encode_cloud().
-    Status encode();
-    Status write_cloud(const std::string& path);
+    /// From the source to points, matched with a bar of progress where `shows_progress`. Errors: the source's and the
+    /// shelf's.
+    Status see(PairSource& source, const PictureNames& names, FileShelf& shelf, bool shows_progress);
+    /// Compresses what was seen, `meta` with it, and proves it. Errors: those of encode_cloud().
+    Status encode(const CloudMeta& meta);
+    Status write_cloud(const char* name, FileShelf& shelf);
     Status write_ply(const std::string& path);
-    Status write_preview(const PictureNames& names);
+    Status write_preview(const PictureNames& names, FileShelf& shelf);
 
     const PointCloud& cloud() const noexcept { return cloud_; }
     const PixelCount& pixels() const noexcept { return pixels_; }

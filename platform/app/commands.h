@@ -11,15 +11,19 @@ void add_calibrate(CLI::App& program, Command& chosen);
 void add_capture(CLI::App& program, Command& chosen);
 void add_config(CLI::App& program, Command& chosen);
 void add_evaluate(CLI::App& program, Command& chosen);
+void add_list(CLI::App& program, Command& chosen);
 void add_match(CLI::App& program, Command& chosen);
 void add_probe(CLI::App& program, Command& chosen);
 void add_process(CLI::App& program, Command& chosen);
+void add_prune(CLI::App& program, Command& chosen);
 void add_rectify(CLI::App& program, Command& chosen);
 void add_rig(CLI::App& program, Command& chosen);
 void add_export(CLI::App& program, Command& chosen);
 void add_info(CLI::App& program, Command& chosen);
 void add_memory(CLI::App& program, Command& chosen);
 void add_selftest(CLI::App& program, Command& chosen);
+void add_show(CLI::App& program, Command& chosen);
 void add_snap(CLI::App& program, Command& chosen);
+void add_verify(CLI::App& program, Command& chosen);
 
 } // namespace dicot::app

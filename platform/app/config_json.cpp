@@ -41,6 +41,14 @@ json value_of(const ConfigKey& key, const Config& config)
 
 } // namespace
 
+nlohmann::json config_values(const Config& config)
+{
+    json values = json::object();
+    for (const ConfigKey& key : config_keys())
+        values[key.section][key.name] = value_of(key, config);
+    return values;
+}
+
 std::string config_json(const LoadedConfig& loaded, const std::string& here)
 {
     const Config config = all_taken_from(here, loaded.config);

@@ -48,6 +48,10 @@ int main(int argc, char** argv)
     app::add_memory(program, chosen);
     app::add_selftest(program, chosen);
     app::add_snap(program, chosen);
+    app::add_list(program, chosen);
+    app::add_show(program, chosen);
+    app::add_verify(program, chosen);
+    app::add_prune(program, chosen);
 
     try {
         program.parse(argc, argv);

@@ -80,14 +80,15 @@ Status run(const Words& words)
     const PictureSize size = TRY(files.size());
     const CloudPlan plan = TRY(make_cloud_plan(words.work, size.width, size.height, words.left.c_str()));
     const std::unique_ptr<CloudWork> work = TRY(CloudWork::make(plan, 0));
+    DiskShelf disk;
     {
         const SealedHeap sealed;
-        TRY(work->see(files, words.pictures, true));
-        TRY(work->encode());
+        TRY(work->see(files, words.pictures, disk, true));
+        TRY(work->encode(plan.meta));
         if (!words.ply.empty())
             TRY(work->write_ply(words.ply));
-        TRY(work->write_cloud(words.cloud));
-        TRY(work->write_preview(words.pictures));
+        TRY(work->write_cloud(words.cloud.c_str(), disk));
+        TRY(work->write_preview(words.pictures, disk));
     }
     const ProcessMemory memory = TRY(process_memory());
     if (words.json) {

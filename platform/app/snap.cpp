@@ -1,113 +1,71 @@
 // dicot snap: from two cameras to one compressed cloud, once.
 #include "cameras/drawn_pair.h"
-#include "cameras/shot_record.h"
-#include "cloud_report.h"
 #include "commands.h"
+#include "config/device_name.h"
 #include "config_words.h"
-#include "part_folder.h"
-#include "sealed_heap.h"
+#include "output_folder.h"
+#include "snapshot.h"
 #include "stop_request.h"
+#include "store/shown.h"
+#include "store/store_words.h"
 
-#include "dicot/os/output_file.h"
-#include "dicot/os/process_memory.h"
+#include "dicot/os/clock.h"
+#include "dicot/os/host.h"
 
 #include <nlohmann/json.hpp>
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <thread>
 
 namespace dicot::app {
 namespace {
 
-constexpr const char* kRecordFormat = "dicot record 1";
-
 struct Words
 {
     ConfigWords config;
-    std::string folder;
+    std::string root;
     bool raw = false;
     bool preview = false;
     bool json = false;
 };
 
-CloudWords cloud_words(const Config& config)
+Status make_device_folder(const std::string& root, const std::string& path)
 {
-    CloudWords words;
-    words.rig = config.rig.file;
-    words.near_mm = config.rig.near_mm;
-    words.far_mm = config.rig.far_mm;
-    words.match.method = config.matching.method;
-    words.match.cost = config.matching.cost;
-    words.match.cpu = config.matching.cpu;
-    words.match.threads = config.matching.threads;
-    words.match.options.window = config.matching.window;
-    words.match.options.gamma_color = config.matching.gamma_color;
-    words.match.options.gamma_space = config.matching.gamma_space;
-    return words;
+    std::error_code ignored;
+    if (std::filesystem::exists(root + "/" + Store::kCatalogueName, ignored))
+        return failure(Fault::kUsage, "%s: this is the folder of one board: name the one around it",
+                       shown(root).c_str());
+    TRY(make_folder(root));
+    return make_folder(path);
 }
 
-std::int64_t utc_now_us()
+/// Another process may be pruning, verifying, or taking a snapshot: that is no reason for a miss at once.
+Result<WrittenStore> open_patiently(const std::string& path, const StoreRules& rules)
 {
-    return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
-        .count();
-}
-
-/// What a snapshot found out, whether it succeeded or not.
-struct Snapshot
-{
-    nlohmann::json record;
-    std::vector<std::string> warnings;
-    std::uint64_t peak_bytes = 0;
-};
-
-/// Paths and names may hold bytes that are no UTF-8.
-std::string words_of(const nlohmann::json& record)
-{
-    return record.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-Status write_record(const nlohmann::json& record, const std::string& folder)
-{
-    const std::string text = words_of(record) + "\n";
-    OutputFile file;
-    TRY(file.open((folder + "/record.json").c_str()));
-    TRY(file.write(text.data(), text.size()));
-    return file.commit();
-}
-
-Status shoot(const Words& words, const Config& config, const std::string& folder, Snapshot& snapshot)
-{
-    RigStream rig = TRY(RigStream::open(config, Pace::kAtOnce));
-    const CloudWords cloud = cloud_words(config);
-    const CloudPlan plan = TRY(make_cloud_plan(cloud, rig.width(), rig.height(), "the cameras' picture"));
-    const std::unique_ptr<CloudWork> work = TRY(CloudWork::make(plan, Shot::scratch_bytes(rig.width(), rig.height())));
-    Shot shot(rig, config, words.raw ? folder : "");
-    PictureNames names;
-    names.left = folder + (words.raw ? "/rectified_left.jpg" : "/left.jpg");
-    if (words.preview)
-        names.preview = folder + "/preview.png";
-    const std::string path = folder + "/cloud.drc";
-    Status status;
-    {
-        const SealedHeap sealed;
-        status = [&]() -> Status {
-            TRY(work->see(shot, names, false));
-            TRY(work->encode());
-            TRY(work->write_cloud(path));
-            return work->write_preview(names);
-        }();
+    constexpr std::int64_t kPatienceUs = 60'000'000;
+    constexpr std::chrono::milliseconds kPause{50};
+    const std::int64_t until_us = monotonic_us() + kPatienceUs;
+    for (;;) {
+        Result<WrittenStore> opened = WrittenStore::open(path, rules);
+        if (opened.status().fault() != Fault::kTryAgain || StopRequest::asked() || monotonic_us() > until_us)
+            return opened;
+        std::this_thread::sleep_for(kPause);
     }
-    snapshot.record["cameras"] = cameras_record(rig);
-    if (shot.figures().burst.used > 0) {
-        snapshot.record["shot"] = shot_record(shot.figures());
-        snapshot.warnings = shot_warnings(rig, shot.figures());
-    }
-    TRY(status);
-    snapshot.peak_bytes = TRY(process_memory()).peak_bytes;
-    snapshot.record["cloud"] = cloud_report(*work, cloud.match.method, snapshot.peak_bytes);
-    snapshot.record["calibration_id"] = plan.meta.calibration_id.c_str();
-    return {};
+}
+
+void tell(const StartReport& report, const std::string& path)
+{
+    const auto line = [&path](int count, const char* what) {
+        if (count > 0)
+            std::fprintf(stderr, "dicot: %s: %s %s\n", shown(path).c_str(), counted(count, "snapshot").c_str(), what);
+    };
+    line(report.finished, "whole when it was interrupted: now in place");
+    line(report.interrupted, "interrupted: recorded as missed");
+    line(report.left_over, "interrupted, and not to be ended: dicot verify");
+    line(report.rows_added, "that the catalogue did not know: added");
 }
 
 void print(const nlohmann::json& record, const std::string& folder)
@@ -124,13 +82,21 @@ void print(const nlohmann::json& record, const std::string& folder)
                 times["triangulate"].get<double>(), times["encode"].get<double>());
 }
 
-/// Names files by where they would have been.
-std::string reason_of(const Status& status, const PartFolder& folder)
+void report(const Words& words, SnapshotTold& told, const std::string& path)
 {
-    std::string reason = status.message();
-    if (const std::size_t at = reason.find(folder.path()); at != std::string::npos)
-        reason.replace(at, folder.path().size(), folder.target());
-    return reason;
+    const std::string folder = path + "/" + told.folder;
+    for (const std::string& warning : told.warnings)
+        std::fprintf(stderr, "dicot: %s: %s\n", folder.c_str(), warning.c_str());
+    if (words.json) {
+        told.record["folder"] = folder;
+        std::printf("%s\n", text_of_record(told.record).c_str());
+    } else if (told.status.ok()) {
+        print(told.record, folder);
+    }
+    if (!told.stored)
+        std::fprintf(stderr, "dicot: %s: not even the miss could be recorded: the next start will\n", folder.c_str());
+    else if (!told.status.ok() && !words.json)
+        std::fprintf(stderr, "dicot: the miss is recorded in %s/record.json\n", folder.c_str());
 }
 
 Status run(const Words& words)
@@ -144,48 +110,42 @@ Status run(const Words& words)
         std::fprintf(stderr, "dicot: there is no camera and no configuration: a drawn pair of pictures is used\n");
     }
     const StopRequest stop;
-    const std::int64_t began_us = utc_now_us();
-    const std::string around = words.folder.empty() ? config.output.folder : words.folder;
-    PartFolder folder;
-    TRY(folder.open(around, utc_stamp(began_us)));
-    Snapshot snapshot;
-    snapshot.record = {{"format", kRecordFormat}, {"software", "dicot " DICOT_VERSION}, {"time", utc_words(began_us)}};
-    const Status status = shoot(words, config, folder.path(), snapshot);
-    const bool tried = status.fault() != Fault::kConfig && status.fault() != Fault::kUsage;
-    if (!tried || (!status.ok() && StopRequest::asked()))
-        return status;
-    const std::string reason = reason_of(status, folder);
-    snapshot.record["source"] = is_drawn                                     ? "drawn pictures"
-                                : config.cameras.left.by == BoundBy::kReplay ? "recorded pictures"
-                                                                             : "cameras";
-    snapshot.record["outcome"] = status.ok() ? "done" : "missed";
-    snapshot.record["reason"] = status.ok() ? nlohmann::json() : nlohmann::json(reason);
-    snapshot.record["warnings"] = snapshot.warnings;
-    TRY(write_record(snapshot.record, folder.path()));
-    TRY(folder.commit());
-    for (const std::string& warning : snapshot.warnings)
-        std::fprintf(stderr, "dicot: %s: %s\n", folder.target().c_str(), warning.c_str());
-    if (words.json) {
-        snapshot.record["folder"] = folder.target();
-        std::printf("%s\n", words_of(snapshot.record).c_str());
-    } else if (status.ok()) {
-        print(snapshot.record, folder.target());
-    } else {
-        std::fprintf(stderr, "dicot: the miss is recorded in %s/record.json\n", folder.target().c_str());
-    }
-    return status.ok() ? status : failure(status.fault(), "%s", reason.c_str());
+    const Result<std::unique_ptr<SnapshotBench>> bench = SnapshotBench::make(config);
+    if (bench.status().fault() == Fault::kConfig || bench.status().fault() == Fault::kUsage)
+        return bench.status();
+    SnapshotWords how;
+    how.raw = words.raw || config.output.keep_raw;
+    how.preview = words.preview;
+    how.device = config.output.device.empty() ? device_name_near(host_name()) : config.output.device;
+    how.source = is_drawn                                     ? "drawn pictures"
+                 : config.cameras.left.by == BoundBy::kReplay ? "recorded pictures"
+                                                              : "cameras";
+    const std::string root = words.root.empty() ? config.output.folder : words.root;
+    const std::string path = root + "/" + how.device;
+    TRY(make_device_folder(root, path));
+    const WrittenStore opened = TRY(open_patiently(path, rules_of(config.output)));
+    Store& store = *opened.store;
+    tell(store.start_report(), path);
+    const ClockReading clock = read_clock(TRY(newest_time(store.catalogue())));
+    SnapshotTold told = TRY(take_snapshot(config, how, bench, clock, store));
+    report(words, told, path);
+    return told.status;
 }
 
 } // namespace
 
 void add_snap(CLI::App& program, Command& chosen)
 {
-    CLI::App* command = program.add_subcommand("snap", "One snapshot: capture, rectify, match, triangulate, encode");
+    CLI::App* command =
+        program.add_subcommand("snap", "One snapshot: capture, rectify, match, triangulate, encode, store");
     auto words = std::make_shared<Words>();
     words->config.add_to(*command);
-    command->add_option("-o,--output", words->folder,
-                        "folder that gets a folder of the snapshot, named by its time in UTC (default: output.folder)");
-    command->add_flag("--raw", words->raw, "keep both pictures as the cameras saw them too, as PNG");
+    command
+        ->add_option("-o,--output,--store", words->root,
+                     "folder of the store: snapshots go to BOARD/DAY/NUMBER_TIME in it (default: output.folder)")
+        ->type_name("DIR");
+    command->add_flag("--raw", words->raw,
+                      "keep both pictures as the cameras saw them too, as PNG (or output.keep_raw)");
     command->add_flag("--preview", words->preview, "picture of the cloud from two viewpoints too");
     command->add_flag("--json", words->json, "the record on standard output");
     command->callback([words, &chosen] { chosen = [words] { return run(*words); }; });

@@ -50,8 +50,6 @@ constexpr const char* kRendered = "rig-dev/calibration/gt_calib.yml --near-mm 35
 constexpr Pair kPairs[] = {
     {"Aloe", "plants/aloe-third/left.png", "plants/aloe-third/right.png", nullptr, 1246.7, true},
     {"Cones", "middlebury-v2/cones/left.png", "middlebury-v2/cones/right.png", kWebcamRig, 400, false},
-    {"epipremnum", "rig-dev/plants/p1_epipremnum/overcast_left.jpg", "rig-dev/plants/p1_epipremnum/overcast_right.jpg",
-     kRendered, 780, true},
     {"strawberry", "rig-dev/plants/p3_strawberry/sunny_left.jpg", "rig-dev/plants/p3_strawberry/sunny_right.jpg",
      kRendered, 780, true}};
 
@@ -100,7 +98,9 @@ std::size_t compressed_pcd_bytes(const PointCloud& cloud, const TempFolder& fold
     return std::filesystem::file_size(packed);
 }
 
-std::vector<BenchCloud> made_clouds()
+} // namespace
+
+std::vector<BenchCloud> bench_clouds()
 {
     const std::string data = std::string{DICOT_DATA_DIR} + "/";
     std::vector<BenchCloud> clouds;
@@ -127,14 +127,6 @@ std::vector<BenchCloud> made_clouds()
         cloud.pcd_bytes = compressed_pcd_bytes(cloud.cloud(), folder);
         clouds.push_back(std::move(cloud));
     }
-    return clouds;
-}
-
-} // namespace
-
-const std::vector<BenchCloud>& bench_clouds()
-{
-    static const std::vector<BenchCloud> clouds = made_clouds();
     return clouds;
 }
 

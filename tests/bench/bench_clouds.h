@@ -22,7 +22,7 @@ struct BenchCloud
     PointCloud cloud() const { return {points, grid}; }
 };
 
-/// Those whose pictures are there, made once; says which are not.
-const std::vector<BenchCloud>& bench_clouds();
+/// Those whose pictures are there, says which are not.
+std::vector<BenchCloud> bench_clouds();
 
 } // namespace dicot::test

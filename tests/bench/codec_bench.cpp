@@ -48,12 +48,12 @@ struct Way
     Order order = Order::kRows;
     bool kd_tree = false;
     bool predicts = true;
-    bool built_in = true;
+    bool shows_parts = false;
 };
 
 constexpr Way kWays[] = {
     {.name = "speed 0", .speed = 0},
-    {.name = "speed 5"},
+    {.name = "speed 5", .shows_parts = true},
     {.name = "speed 10", .speed = 10},
     {.name = "serpentine rows", .order = Order::kSerpentine},
     {.name = "columns", .order = Order::kColumns},
@@ -68,7 +68,7 @@ constexpr Way kWays[] = {
     {.name = "colour step 4", .colour_step = 4},
     {.name = "colour step 5", .colour_step = 5},
     {.name = "colour held, 2", .held = 2},
-    {.name = "step 5, 4 bits", .colour_step = 5, .confidence_bits = 4},
+    {.name = "step 5, 4 bits", .colour_step = 5, .confidence_bits = 4, .shows_parts = true},
 };
 
 std::vector<CloudPoint> ordered(const test::BenchCloud& cloud, Order order)
@@ -170,7 +170,6 @@ Outcome pack(const std::vector<CloudPoint>& points, const CloudGrid& grid, const
     encoder.SetSpeedOptions(way.speed, way.speed);
     encoder.SetEncodingMethod(way.kd_tree ? draco::POINT_CLOUD_KD_TREE_ENCODING
                                           : draco::POINT_CLOUD_SEQUENTIAL_ENCODING);
-    encoder.SetUseBuiltInAttributeCompression(way.built_in);
     const auto metres = [&](std::int64_t steps) {
         return static_cast<float>(static_cast<double>(steps) * (grid.step_um * 1e-6));
     };
@@ -204,34 +203,35 @@ void explore(const test::BenchCloud& cloud)
                 cloud.grid.bits);
     std::printf("%-18s %8s %8s %8s %10s %13s %9s\n", "", "all", "position", "colour", "confidence", "ms/170,000 pt",
                 "heap B/pt");
+    double least = 1e9;
     for (const Way& way : kWays) {
         const auto points = rounded(ordered(cloud, way.order), way);
         const Outcome all = pack(points, cloud.grid, way, kAll);
         std::printf("%-18s %8.1f", way.name, all.bits);
         for (const unsigned part : {kPosition, kColour, kConfidence}) {
             const int width = part == kConfidence ? 10 : 8;
-            if (way.kd_tree) // reorders points by what it has, so its parts do not add up
-                std::printf(" %*s", width, "-");
-            else
+            if (way.shows_parts)
                 std::printf(" %*.1f", width, pack(points, cloud.grid, way, part).bits);
+            else
+                std::printf(" %*s", width, "");
         }
+        if (all.bits > 0)
+            least = std::min(least, all.bits);
         std::printf(" %13.0f %9.0f\n", all.cpu_s * 1e3 * kTargetPoints / count,
                     static_cast<double>(all.peak_bytes) / count);
     }
+    const MemoryBlock block = MemoryBlock::map(encode_heap_bytes(cloud.points.size())).value();
+    const auto bytes = encode_cloud(cloud.cloud(), {}, block.bytes()).value().bytes;
+    constexpr double kMetadataBits = 0.05; // some 250 bytes that the other ways do not write
+    EXPECT_LE(8.0 * static_cast<double>(bytes.size()) / count, least + kMetadataBits) << cloud.name;
 }
 
-TEST(CodecBench, WaysOfPackingSideBySide)
-{
-    for (const test::BenchCloud& cloud : test::bench_clouds())
-        if (cloud.name != "epipremnum") // says what the strawberry says
-            explore(cloud);
-}
-
-TEST(CodecBench, PlantsTakeAtMost30BitsAPointAnd300MsFor170000)
+/// What the codec makes of the clouds; its time is printed, not judged.
+void measure(const std::vector<test::BenchCloud>& clouds)
 {
     std::printf("%-12s %8s %6s %9s %9s %13s %9s\n", "", "points", "bits", "PLY/file", "PCD/file", "ms/170,000 pt",
                 "heap B/pt");
-    for (const test::BenchCloud& cloud : test::bench_clouds()) {
+    for (const test::BenchCloud& cloud : clouds) {
         const auto count = static_cast<double>(cloud.points.size());
         const MemoryBlock block = MemoryBlock::map(encode_heap_bytes(cloud.points.size())).value();
         double best_ms = 1e9;
@@ -254,8 +254,15 @@ TEST(CodecBench, PlantsTakeAtMost30BitsAPointAnd300MsFor170000)
         if (cloud.plant) {
             EXPECT_LE(bits, 30) << cloud.name;
         }
-        EXPECT_LE(ms, 300) << cloud.name;
     }
+}
+
+TEST(CodecBench, PlantsTakeAtMost30BitsAPointAndNoOtherWayIsSmaller)
+{
+    const auto clouds = test::bench_clouds();
+    for (const test::BenchCloud& cloud : clouds)
+        explore(cloud);
+    measure(clouds);
 }
 
 } // namespace

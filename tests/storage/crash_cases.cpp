@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -73,11 +72,8 @@ private:
 
 void Run::keep(const CrashCase& which, const Verdict& verdict)
 {
-    std::string text = which.text();
-    for (const std::string& sentence : verdict)
-        text += "\n    " + sentence;
     if (!verdict.empty())
-        report_.failures.push_back(text);
+        report_.failures.push_back(words_of(which, verdict));
 }
 
 void Run::cut(const Cut& cut)
@@ -110,7 +106,7 @@ void Run::cut_repair(const Cut& cut, const CrashMedium& repaired, Moment opened)
 
 CrashReport Run::run()
 {
-    for (std::size_t at = 0; at <= recording_.log.size(); ++at)
+    for (std::size_t at = plan_.from; at <= recording_.log.size(); ++at)
         for (unsigned seed = 0; seed < plan_.seeds && !is_done(); ++seed)
             cut({plan_.mode, at, seed});
     return report_;
@@ -134,6 +130,17 @@ Recording CrashScene::record(const StoryRules& rules)
     return recording;
 }
 
+Recording CrashScene::record_many(int slots)
+{
+    StoryRules rules;
+    rules.most_file_bytes = 600;
+    CrashMedium card;
+    Recording recording;
+    recording.story = tell_until_full(card, *vfs_, rules, slots);
+    recording.log = card.log();
+    return recording;
+}
+
 std::string CrashCase::text() const
 {
     return cut.text() + (repair_cut ? "+" + repair_cut->text() : "");
@@ -152,6 +159,14 @@ std::optional<CrashCase> CrashCase::parse(const std::string& text)
     return which.repair_cut ? std::optional{which} : std::nullopt;
 }
 
+std::string words_of(const CrashCase& which, const Verdict& verdict)
+{
+    std::string words = which.text();
+    for (const std::string& sentence : verdict)
+        words += "\n    " + sentence;
+    return words;
+}
+
 Verdict run_case(CrashVfs& vfs, const Recording& recording, const CrashCase& which)
 {
     CrashMedium card{surviving({}, recording.log, which.cut)};
@@ -164,21 +179,7 @@ Verdict run_case(CrashVfs& vfs, const Recording& recording, const CrashCase& whi
 
 CrashReport run_plan(CrashVfs& vfs, const Recording& recording, const CrashPlan& plan)
 {
-    const char* only = std::getenv("DICOT_CRASH_CASE");
-    if (only == nullptr)
-        return Run(vfs, recording, plan).run();
-    const auto which = CrashCase::parse(only);
-    if (!which)
-        throw std::runtime_error("DICOT_CRASH_CASE is no case, such as subset:37:5");
-    CrashReport report;
-    report.cuts = report.states = 1;
-    const Verdict verdict = run_case(vfs, recording, *which);
-    std::string text = which->text();
-    for (const std::string& sentence : verdict)
-        text += "\n    " + sentence;
-    if (!verdict.empty())
-        report.failures.push_back(text);
-    return report;
+    return Run(vfs, recording, plan).run();
 }
 
 } // namespace dicot::test

@@ -24,6 +24,8 @@ public:
     CrashScene();
 
     Recording record(const StoryRules& rules = {});
+    /// Nothing but small snapshots.
+    Recording record_many(int slots);
     CrashVfs& vfs() { return *vfs_; }
 
 private:
@@ -43,11 +45,15 @@ struct CrashCase
 /// What the judge says after it.
 Verdict run_case(CrashVfs& vfs, const Recording& recording, const CrashCase& which);
 
+/// The case's id, and under it the sentences.
+std::string words_of(const CrashCase& which, const Verdict& verdict);
+
 struct CrashPlan
 {
     Cut::Mode mode = Cut::Mode::kInOrder;
     unsigned seeds = 1;
     std::size_t repairs_every = 0; ///< of so many states, one has its repair cut too, in every mode; 0: none
+    Moment from = 0;               ///< where the first cut is
     std::size_t most_failures = 8; ///< then it ends
 };
 
@@ -58,7 +64,7 @@ struct CrashReport
     std::vector<std::string> failures; ///< each begins with the case's id
 };
 
-/// Cuts at each change of the recording. If the environment has DICOT_CRASH_CASE, that case alone, whatever the plan.
+/// Cuts at each change of the recording.
 CrashReport run_plan(CrashVfs& vfs, const Recording& recording, const CrashPlan& plan);
 
 } // namespace dicot::test

@@ -51,6 +51,21 @@ Status add_all(Store& store, const Content& content)
     return {};
 }
 
+Status begin(CrashMedium& card, Store& store, std::int64_t began_us, Told& told)
+{
+    const std::int64_t before = store.sequence();
+    const Moment from = card.log().size();
+    const Status begun = store.begin({began_us, {}});
+    if (store.sequence() == before)
+        return begun.ok() ? failure(Fault::kSoftware, "a snapshot without a number of its own") : begun;
+    told.begin_from = from;
+    told.sequence = store.sequence();
+    told.folder = store.folder();
+    TRY(begun);
+    told.begun = card.log().size();
+    return {};
+}
+
 Status commit(CrashMedium& card, Store& store, Told& told, const Content& content)
 {
     told.contents.push_back(content);
@@ -131,12 +146,7 @@ void Teller::miss(std::int64_t began_us)
 {
     Told told;
     const Status missed = [&]() -> Status {
-        told.begin_from = card_.log().size();
-        const Status begun = store_->begin({began_us, {}});
-        told.sequence = store_->sequence();
-        told.folder = store_->folder();
-        TRY(begun);
-        told.begun = card_.log().size();
+        TRY(begin(card_, *store_, began_us, told));
         TRY(add(*store_, "left.jpg", bytes_of_seed(seed_++, rules_.most_file_bytes / 2)));
         TRY(store_->take_back());
         Content content{false, "no camera", {}};
@@ -145,7 +155,8 @@ void Teller::miss(std::int64_t began_us)
         return commit(card_, *store_, told, content);
     }();
     noted(missed);
-    story_.all.push_back(told);
+    if (told.begin_from != kNever)
+        story_.all.push_back(told);
 }
 
 void Teller::pull(std::initializer_list<std::size_t> which)
@@ -203,7 +214,9 @@ Story Teller::tell()
 
 Story Teller::tell_until_full(int slots)
 {
-    for (int k = 0; open() && k < slots; ++k)
+    if (!open())
+        return story_;
+    for (int k = 0; k < slots; ++k)
         snapshot(kNextDay + k * 60 * kSecond);
     store_.reset();
     return story_;
@@ -226,12 +239,7 @@ Story Teller::tell_with_a_thief()
 Status store_snapshot(CrashMedium& card, Store& store, std::int64_t began_us, unsigned seed,
                       std::size_t most_file_bytes, Told& told)
 {
-    told.begin_from = card.log().size();
-    const Status begun = store.begin({began_us, {}});
-    told.sequence = store.sequence();
-    told.folder = store.folder();
-    TRY(begun);
-    told.begun = card.log().size();
+    TRY(begin(card, store, began_us, told));
     TRY(store.make_room());
     Dice dice{seed};
     Content content{true, "", {}};

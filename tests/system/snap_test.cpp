@@ -1,14 +1,19 @@
 // The program itself before recorded cameras: snapshots and captures, whole or missed with a reason.
 #include "cameras/drawn_pair.h"
+#include "cloud_on_disk.h"
 #include "temp_folder.h"
 #include "tool.h"
+
+#include "dicot/base/utc_time.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +24,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using test::Bytes;
 using test::ToolRun;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 ToolRun dicot(const std::string& words)
@@ -42,6 +48,33 @@ Bytes bytes_of(const fs::path& path)
 {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Point by point; a point has no padding.
+bool same_points(const PointCloud& a, const PointCloud& b)
+{
+    return a.grid.step_um == b.grid.step_um && std::ranges::equal(a.grid.origin, b.grid.origin) &&
+           std::ranges::equal(std::as_bytes(a.points), std::as_bytes(b.points));
+}
+
+/// Folders of snapshots below a store's root, in the order of their numbers.
+std::vector<fs::path> snapshots_in(const fs::path& root)
+{
+    std::vector<fs::path> folders;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root))
+        if (entry.path().filename() == "record.json")
+            folders.push_back(entry.path().parent_path());
+    std::sort(folders.begin(), folders.end());
+    return folders;
+}
+
+std::vector<std::string> names_in(const fs::path& folder)
+{
+    std::vector<std::string> names;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+        names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
 }
 
 /// The drawn pair as a folder of recorded pictures with a rig file, and configurations that name it.
@@ -89,20 +122,32 @@ TEST_F(Recorded, WithoutCameraAndConfigurationAPairIsDrawnAndSaidToBe)
     EXPECT_EQ(record["outcome"], "done");
     EXPECT_GT(record["cloud"]["points"].get<int>(), 50'000);
     const fs::path shot = record["folder"].get<std::string>();
-    for (const char* name : {"cloud.drc", "left.png", "right.png", "rectified_left.jpg", "record.json"})
-        EXPECT_TRUE(fs::exists(shot / name)) << name;
+    EXPECT_THAT(names_in(shot),
+                ElementsAre("SHA256SUMS", "cloud.drc", "left.jpg", "raw_left.png", "raw_right.png", "record.json"));
 }
 
 TEST_F(Recorded, TheCloudOfASnapshotIsThatOfTheFiles)
 {
-    const ToolRun snap = dicot("snap --json" + config() + "-o " + folder_->path("same"));
+    const ToolRun snap =
+        dicot("snap --json" + config("", "[output]\ndevice = 'bench-3'\n") + "-o " + folder_->path("same"));
     ASSERT_EQ(snap.exit_code, 0) << snap.output;
     const json record = json_in(snap.output);
     const ToolRun process =
         dicot("process " + folder_->path("pairs/left01.png") + " " + folder_->path("pairs/right01.png") + " --rig " +
               folder_->path("rig.yaml") + " -o " + folder_->path("files.drc"));
     ASSERT_EQ(process.exit_code, 0) << process.output;
-    EXPECT_EQ(bytes_of(record["folder"].get<std::string>() + "/cloud.drc"), bytes_of(folder_->path("files.drc")));
+    const auto stored = app::CloudOnDisk::read((record["folder"].get<std::string>() + "/cloud.drc").c_str());
+    const auto files = app::CloudOnDisk::read(folder_->path("files.drc").c_str());
+    ASSERT_TRUE(stored.ok() && files.ok()) << stored.status().message();
+    EXPECT_TRUE(same_points(stored.value().cloud(), files.value().cloud()));
+    const CloudMeta& meta = stored.value().meta();
+    EXPECT_EQ(meta.sequence, 1);
+    EXPECT_EQ(meta.device_id.view(), "bench-3");
+    EXPECT_EQ(meta.clock_trust.view(), record["clock"]["trust"].get<std::string>());
+    EXPECT_EQ(meta.captured_at.view(), record["shot"]["time"].get<std::string>());
+    EXPECT_TRUE(is_utc_time(meta.captured_at.view()));
+    EXPECT_EQ(meta.skew_us, record["shot"]["skew_us"].get<std::int64_t>());
+    EXPECT_FALSE(files.value().meta().sequence);
     EXPECT_EQ(record["source"], "recorded pictures");
     EXPECT_EQ(record["shot"]["views"]["order"], "as named");
     EXPECT_EQ(record["shot"]["pairs_used"], 8);
@@ -160,13 +205,12 @@ TEST_F(Recorded, AMissIsRecordedWithItsReason)
             dicot("snap" + config(std::string("replay_script_right = \"") + miss.script + "\"") + "-o " + out);
         EXPECT_EQ(run.exit_code, 69) << miss.script << run.output;
         EXPECT_THAT(run.output, HasSubstr(miss.reason));
-        ASSERT_FALSE(fs::is_empty(out)) << miss.script;
-        const fs::path shot = *fs::directory_iterator(out);
+        ASSERT_EQ(snapshots_in(out).size(), 1U) << miss.script;
+        const fs::path shot = snapshots_in(out).front();
         const json record = json_file(shot / "record.json");
         EXPECT_EQ(record["outcome"], "missed");
         EXPECT_THAT(record["reason"].get<std::string>(), HasSubstr(miss.reason));
-        EXPECT_FALSE(fs::exists(shot / "cloud.drc"));
-        EXPECT_EQ(std::distance(fs::directory_iterator(out), {}), 1);
+        EXPECT_THAT(names_in(shot), ElementsAre("SHA256SUMS", "record.json"));
     }
 }
 
@@ -195,25 +239,32 @@ TEST_F(Recorded, NamesThatAreNoTextAreNoReasonToStop)
     EXPECT_EQ(run.exit_code, 0) << run.output;
 }
 
-TEST_F(Recorded, SnapshotsOfOneSecondKeepEachOther)
+TEST_F(Recorded, SnapshotsOfOneMomentWaitForEachOther)
 {
     const std::string words =
         std::string{DICOT_PROGRAM} + " snap" + config() + "-o " + folder_->path("together") + " >/dev/null & ";
     EXPECT_EQ(test::run(words + words + words + "wait").exit_code, 0);
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder_->path("together")), {}), 3);
+    const std::vector<fs::path> shots = snapshots_in(folder_->path("together"));
+    ASSERT_EQ(shots.size(), 3U);
+    for (std::size_t i = 0; i < shots.size(); ++i) {
+        EXPECT_EQ(json_file(shots[i] / "record.json")["sequence"], i + 1);
+        EXPECT_TRUE(fs::exists(shots[i] / "cloud.drc"));
+    }
 }
 
-TEST_F(Recorded, AnInterruptLeavesNothing)
+TEST_F(Recorded, AnInterruptIsAMissWithoutPictures)
 {
     const std::string out = folder_->path("interrupted");
     const std::string snap =
         std::string{DICOT_PROGRAM} + " snap" +
         config("replay_script = \"dark 500\"", "[exposure]\nwarm_up_s = 120\n[burst]\nframes = 64\n") + "-o " + out;
-    // As soon as there is something that could be left; the capture goes on for hundreds of frames then.
+    // As soon as it has its number; the capture goes on for hundreds of frames then.
     const ToolRun run = test::run("{ " + snap + " & }; until ls -d " + out +
-                                  "/.*.part >/dev/null; do kill -0 $! || break; done; kill -TERM $!; wait $!");
+                                  "/*/incoming/0* >/dev/null; do kill -0 $! || break; done; kill -TERM $!; wait $!");
     EXPECT_EQ(run.exit_code, 75) << run.output;
-    EXPECT_TRUE(fs::is_empty(out));
+    ASSERT_EQ(snapshots_in(out).size(), 1U);
+    EXPECT_THAT(names_in(snapshots_in(out).front()), ElementsAre("SHA256SUMS", "record.json"));
+    EXPECT_EQ(json_file(snapshots_in(out).front() / "record.json")["outcome"], "missed");
 }
 
 TEST_F(Recorded, ACameraThatRecoversMakesASnapshotThatSaysSo)
@@ -232,10 +283,61 @@ TEST_F(Recorded, WhatWasNeverTriedLeavesNothing)
     EXPECT_EQ(wrong.exit_code, 78) << wrong.output;
     EXPECT_THAT(wrong.output, HasSubstr("explode 3"));
     EXPECT_FALSE(fs::exists(folder_->path("nothing")));
+    std::string rig = test::run("cat " + folder_->path("rig.yaml")).output;
+    rig.erase(rig.find("near_mm"), rig.find("P1:") - rig.find("near_mm"));
+    write("norange.yaml", rig);
+    const char* const cameras = "[cameras]\nleft = \"replay:pairs\"\nright = \"replay:pairs\"\n[rig]\nfile = ";
+    write("norange.toml", cameras + std::string("\"norange.yaml\"\n"));
+    const ToolRun no_range =
+        dicot("snap --config " + folder_->path("norange.toml") + " -o " + folder_->path("nothing"));
+    EXPECT_EQ(no_range.exit_code, 64) << no_range.output;
+    EXPECT_FALSE(fs::exists(folder_->path("nothing")));
+}
+
+TEST_F(Recorded, ARigFileThatIsNotThereIsAMiss)
+{
     write("norig.toml", "[cameras]\nleft = \"replay:pairs\"\nright = \"replay:pairs\"\n[rig]\nfile = \"none.yaml\"\n");
     const ToolRun no_rig = dicot("snap --config " + folder_->path("norig.toml") + " -o " + folder_->path("norig"));
-    EXPECT_NE(no_rig.exit_code, 0);
+    EXPECT_EQ(no_rig.exit_code, 66);
     EXPECT_THAT(no_rig.output, HasSubstr("none.yaml"));
+    ASSERT_EQ(snapshots_in(folder_->path("norig")).size(), 1U);
+    const json record = json_file(snapshots_in(folder_->path("norig")).front() / "record.json");
+    EXPECT_THAT(record["reason"].get<std::string>(), HasSubstr("none.yaml"));
+}
+
+TEST_F(Recorded, TheRecordHoldsWhatIsKnown)
+{
+    const std::string sections =
+        "[output]\ndevice = 'b'\nkeep_raw = true\n[matching]\nwindow = 5\n[burst]\nframes = 2\n";
+    const ToolRun run = dicot("snap --json" + config("", sections) + "-o " + folder_->path("known"));
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    const fs::path shot = json_in(run.output)["folder"].get<std::string>();
+    const json record = json_file(shot / "record.json");
+    EXPECT_EQ(record["format"], "dicot record 1");
+    EXPECT_EQ(record["sequence"], 1);
+    EXPECT_EQ(record["device"], "b");
+    EXPECT_TRUE(record["due"].is_null());
+    EXPECT_TRUE(record["reason"].is_null());
+    EXPECT_TRUE(is_utc_time(record["time"].get<std::string>()));
+    EXPECT_THAT(record["clock"]["trust"].get<std::string>(), testing::AnyOf("synchronised", "set"));
+    EXPECT_EQ(record["parameters"]["matching"]["window"], 5);
+    EXPECT_EQ(record["parameters"]["output"]["keep_raw"], true);
+    EXPECT_GT(record["memory"]["arena_bytes"], 1'000'000);
+    EXPECT_GT(record["memory"]["peak_resident_bytes"], 1'000'000);
+    EXPECT_EQ(record["store"]["interrupted"], 0);
+    EXPECT_TRUE(record["temperatures_c"].is_object());
+    std::size_t bytes = 0;
+    for (const std::string& name : names_in(shot)) {
+        if (name == "record.json" || name == "SHA256SUMS")
+            continue;
+        bytes += fs::file_size(shot / name);
+        EXPECT_THAT(test::run("sha256sum " + (shot / name).string()).output,
+                    testing::StartsWith(record["digests"].value(name, "none")))
+            << name;
+    }
+    EXPECT_EQ(record["digests"].size(), 4U);
+    EXPECT_EQ(record["bytes_written"], bytes);
+    EXPECT_EQ(test::run("cd " + shot.string() + " && sha256sum --strict -c SHA256SUMS").exit_code, 0);
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "config/config.h"
 #include "config/config_keys.h"
+#include "config/device_name.h"
 #include "temp_folder.h"
 
 #include <gmock/gmock.h>
@@ -79,6 +80,15 @@ const Promise kPromises[] = {
     {"matching", "cpu", {R"("auto")", R"("scalar")", R"("avx2")", R"("neon")"}, {R"("sse")", "2"}},
     {"matching", "threads", {"0", "64"}, {"-1", "65"}},
     {"output", "folder", {R"("/ä/\"b\"")"}, {R"("")", "1", R"("a\nb")"}},
+    {"output",
+     "device",
+     {R"("")", R"("Bench-3.left_row")", R"("2026-06-011")",
+      R"("123456789012345678901234567890123456789012345678901234567890123")"},
+     {R"("..")", R"(".hidden")", R"("-o")", R"("a/b")", R"("a b")", R"("ä")", R"("2026-06-01")", "7", R"("a\n")",
+      R"("1234567890123456789012345678901234567890123456789012345678901234")"}},
+    {"output", "reserve_mib", {"0", "1048576"}, {"-1", "1048577", "1.5", "\"256\""}},
+    {"output", "prune", {R"("never")", R"("pulled")", R"("all")"}, {R"("")", R"("oldest")", "false"}},
+    {"output", "keep_raw", {"true", "false"}, {"0", "\"yes\""}},
 };
 
 const ConfigKey* known(const Promise& promise, std::size_t& place)
@@ -117,6 +127,17 @@ TEST(Config, EveryKeyTakesItsBoundsAsTheyAre)
             }
         }
     }
+}
+
+TEST(Config, AHostsNameIsMadeFitToBeADevices)
+{
+    EXPECT_EQ(device_name_near("bench-3.local"), "bench-3.local");
+    EXPECT_EQ(device_name_near("Grüne Wand"), "Gr--ne-Wand");
+    EXPECT_EQ(device_name_near("../etc"), "etc");
+    EXPECT_EQ(device_name_near("2026-06-01"), "dicot");
+    EXPECT_EQ(device_name_near("\xFF\xFE"), "dicot");
+    EXPECT_EQ(device_name_near(""), "dicot");
+    EXPECT_EQ(device_name_near(std::string(300, 'x')), std::string(63, 'x'));
 }
 
 TEST(Config, EveryKeyRefusesWhatLiesBeyondWithPlaceAndRemedy)

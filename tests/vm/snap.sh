@@ -1,7 +1,7 @@
 #!/bin/sh
-# From two cameras to one cloud: `dicot snap` in the virtual machine, through the kernel's driver and through libusb, leaves byte
-# for byte the cloud that `dicot process` makes here of the same pictures as PNG files. YUYV carries them without loss: the files
-# are what the frames decode to.
+# From two cameras to one cloud: `dicot snap` in the virtual machine, through the kernel's driver and through libusb, stores point
+# for point the cloud that `dicot process` makes here of the same pictures as PNG files. YUYV carries them without loss: the files
+# are what the frames decode to. What the cloud says about itself differs: a snapshot has a number, a time and a board.
 #
 #   sh tests/vm/snap.sh [FOLDER]      FOLDER: for the image and what the machine hands out; .build/vm-snap
 #
@@ -26,7 +26,9 @@ else
     cp tests/support/data/drawn-pair.yaml "$work/files/rig.yaml"
     rm -rf "$work/drawn"
     quietly "$dicot" snap --raw -o "$work/drawn"
-    pair=$(echo "$work"/drawn/*)
+    pair=$(echo "$work"/drawn/*/*/0*)
+    mv "$pair/raw_left.png" "$pair/left.png"
+    mv "$pair/raw_right.png" "$pair/right.png"
 fi
 for side in left right; do
     quietly "$tools/make_frames" "$pair/$side.png" "$work/frames/$side" $size 1
@@ -36,7 +38,9 @@ done
 # A large window takes more than a minute under emulation: one driver has the usual one, the other a small one.
 process() { # driver, window
     quietly "$dicot" process "$work/files/left.png" "$work/files/right.png" --rig "$work/files/rig.yaml" --window "$2" \
-        -o "$work/files/$1.drc"
+        -o "$work/$1.drc"
+    quietly "$dicot" export "$work/$1.drc" -o "$work/$1.ply"
+    sh tests/vm/guest/points.sh "$work/$1.ply" >"$work/files/$1.points"
 }
 process v4l2 35
 process uvc 11
@@ -53,7 +57,9 @@ fps = 15
 most_skew_ms = 1000.0
 [matching]
 window = WINDOW
+[output]
+device = "board"
 [rig]
 file = "/files/rig.yaml"
 END
-run_machine 480 --program .build/arm64/platform/app/dicot --file "$work/files=/files"
+run_machine 480 --program .build/arm64/platform/app/dicot --file "$work/files=/files" --file tests/vm/guest/points.sh=/vm/points.sh

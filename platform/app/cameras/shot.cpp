@@ -36,15 +36,11 @@ std::int64_t utc_us()
 
 } // namespace
 
-Shot::Shot(RigStream& rig, const Config& config, const std::string& raw_folder) : rig_(rig)
+Shot::Shot(RigStream& rig, const Config& config, FileShelf* raw) : rig_(rig), raw_(raw)
 {
     rules_.pairs = config.burst.frames;
     rules_.average = config.burst.average;
     rules_.most_skew_us = static_cast<std::int64_t>(config.burst.most_skew_ms * 1000);
-    if (raw_folder.empty())
-        return;
-    raw_left_ = raw_folder + "/left.png";
-    raw_right_ = raw_folder + "/right.png";
 }
 
 std::size_t Shot::scratch_bytes(int width, int height)
@@ -100,10 +96,13 @@ Status Shot::fill(ImageView<Rgb8> left, ImageView<Rgb8> right, Arena scratch)
     TRY(begin());
     TRY(take(left, right, scratch));
     TRY(end());
-    if (raw_left_.empty())
+    if (raw_ == nullptr)
         return {};
-    TRY(write_png(raw_left_.c_str(), left));
-    return write_png(raw_right_.c_str(), right);
+    const auto put = [this](const char* name, ImageView<const Rgb8> picture) {
+        return raw_->put(name, [&](ByteSink& sink) { return write_png(sink, name, picture); });
+    };
+    TRY(put("raw_left.png", left));
+    return put("raw_right.png", right);
 }
 
 } // namespace dicot::app

@@ -12,7 +12,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
 
 namespace dicot::app {
 
@@ -30,8 +29,8 @@ struct ShotFigures
 class Shot final : public PairSource
 {
 public:
-    /// `raw_folder`: where fill() writes left.png and right.png as the cameras saw them; empty: nowhere.
-    Shot(RigStream& rig, const Config& config, const std::string& raw_folder);
+    /// `raw`: where fill() puts raw_left.png and raw_right.png, as the cameras saw them; null: nowhere.
+    Shot(RigStream& rig, const Config& config, FileShelf* raw);
 
     /// What take() and fill() need for pictures of this size.
     static std::size_t scratch_bytes(int width, int height);
@@ -52,7 +51,7 @@ private:
 
     RigStream& rig_;
     BurstRules rules_;
-    std::string raw_left_, raw_right_;
+    FileShelf* raw_;
     ShotFigures figures_;
 };
 

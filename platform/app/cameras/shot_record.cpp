@@ -2,12 +2,13 @@
 
 #include "../aim/aim_advice.h"
 
+#include "dicot/base/utc_time.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <utility>
 
 namespace dicot::app {
@@ -18,16 +19,6 @@ using nlohmann::json;
 constexpr double kMostSaturated = 0.02;    ///< of the pixels
 constexpr double kMostLumaDifference = 16; ///< levels between the means of both pictures
 constexpr double kDarkLuma = 20;           ///< levels
-
-std::string formatted(std::int64_t us, const char* format)
-{
-    const auto seconds = static_cast<std::time_t>(us / 1'000'000);
-    std::tm broken{};
-    char text[32];
-    if (gmtime_r(&seconds, &broken) == nullptr || std::strftime(text, sizeof text, format, &broken) == 0)
-        return "unknown";
-    return text;
-}
 
 double levels(std::uint32_t q8)
 {
@@ -149,16 +140,6 @@ json views_record(const std::optional<aiming::Views>& views)
 
 } // namespace
 
-std::string utc_words(std::int64_t us_since_1970)
-{
-    return formatted(us_since_1970, "%Y-%m-%dT%H:%M:%SZ");
-}
-
-std::string utc_stamp(std::int64_t us_since_1970)
-{
-    return formatted(us_since_1970, "%Y%m%dT%H%M%SZ");
-}
-
 json cameras_record(RigStream& rig)
 {
     const StereoFigures& figures = rig.cameras().figures();
@@ -172,7 +153,7 @@ json cameras_record(RigStream& rig)
 json shot_record(const ShotFigures& figures)
 {
     const BurstFigures& burst = figures.burst;
-    return {{"time", utc_words(figures.taken_us)},
+    return {{"time", utc_text(figures.taken_us).view()},
             {"skew_us", burst.skew_us},
             {"least_skew_us", burst.least_skew_us},
             {"pairs", burst.pairs},

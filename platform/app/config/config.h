@@ -84,7 +84,11 @@ struct MatchingConfig
 
 struct OutputConfig
 {
-    std::string folder = ".";
+    std::string folder = ".";     ///< around the folders of devices
+    std::string device;           ///< empty: the host's name
+    int reserve_mib = 256;        ///< of the file system, left to others
+    std::string prune = "pulled"; ///< "never", "pulled", "all"
+    bool keep_raw = false;
 };
 
 /// Everything that a file may say, as its sections; what stands here is what holds without a file. Ranges and meanings:

@@ -28,6 +28,8 @@ constexpr int kPowerLines[] = {0, 50, 60};
 constexpr const char* kMethods[] = {"paper", "standard"};
 constexpr const char* kCosts[] = {"adcensus", "tad"};
 constexpr const char* kCpus[] = {"auto", "scalar", "avx2", "neon"};
+constexpr const char* kPrunes[] = {"never", "pulled", "all"};
+constexpr int kMostReserveMib = 1 << 20;
 constexpr double kFarthestMm = 1'000'000; // as for calibrate
 
 const ConfigKey kKeys[] = {
@@ -90,8 +92,17 @@ const ConfigKey kKeys[] = {
     {"matching", "threads", "", "Worker threads, 0: one for each processor; never changes the result",
      WholeKey{reach<int, &Config::matching, &MatchingConfig::threads>(), 0, ThreadCrew::kMaxThreads, {}}},
 
-    {"output", "folder", "", "Where snapshots go; without this key the folder that dicot is started in",
+    {"output", "folder", "",
+     "Where snapshots go, each board's in a folder of its own; without this key the folder that dicot is started in",
      PathKey{reach<std::string, &Config::output, &OutputConfig::folder>()}},
+    {"output", "device", "", "The board's name, of its folder in there and in every cloud",
+     NameKey{reach<std::string, &Config::output, &OutputConfig::device>()}},
+    {"output", "reserve_mib", "MiB", "What snapshots leave free of the disk or card",
+     WholeKey{reach<int, &Config::output, &OutputConfig::reserve_mib>(), 0, kMostReserveMib, {}}},
+    {"output", "prune", "", "What may be deleted to make room, oldest first; pulled: what a host has, verified",
+     ChoiceKey{reach<std::string, &Config::output, &OutputConfig::prune>(), kPrunes}},
+    {"output", "keep_raw", "", "Both pictures are kept as the cameras saw them too, as PNG",
+     FlagKey{reach<bool, &Config::output, &OutputConfig::keep_raw>()}},
 };
 
 } // namespace

@@ -36,6 +36,12 @@ struct PathKey
     Reach<std::string> reach;
 };
 
+/// A name as is_device_name() has it, or none.
+struct NameKey
+{
+    Reach<std::string> reach;
+};
+
 /// A text that parse_replay_script() understands.
 struct ScriptKey
 {
@@ -80,7 +86,8 @@ struct ConfigKey
     const char* name;
     const char* unit; ///< empty: none
     const char* meaning;
-    std::variant<BindingKey, ChoiceKey, PathKey, ScriptKey, FormatsKey, WholeKey, NumberKey, OpenNumberKey, FlagKey>
+    std::variant<BindingKey, ChoiceKey, PathKey, NameKey, ScriptKey, FormatsKey, WholeKey, NumberKey, OpenNumberKey,
+                 FlagKey>
         kind;
 };
 

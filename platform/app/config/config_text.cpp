@@ -59,6 +59,7 @@ struct TomlOf
     std::string operator()(const BindingKey& key) const { return quoted(text_of(key.reach(config))); }
     std::string operator()(const ChoiceKey& key) const { return quoted(key.reach(config)); }
     std::string operator()(const PathKey& key) const { return quoted(key.reach(config)); }
+    std::string operator()(const NameKey& key) const { return quoted(key.reach(config)); }
     std::string operator()(const ScriptKey& key) const { return quoted(key.reach(config)); }
     std::string operator()(const FormatsKey& key) const
     {
@@ -82,6 +83,10 @@ struct AllowedOf
     }
     std::string operator()(const ChoiceKey& key) const { return listed(key.choices, " or ", quoted); }
     std::string operator()(const PathKey&) const { return "a path"; }
+    std::string operator()(const NameKey&) const
+    {
+        return R"("" (the host's name), or letters, digits, '.', '_' and '-', 63 at most and no date)";
+    }
     std::string operator()(const ScriptKey&) const { return "a text as drivers/README.md has it under replay"; }
     std::string operator()(const FormatsKey& key) const
     {

@@ -3,6 +3,7 @@
 #include "config_checks.h"
 #include "config_keys.h"
 #include "config_paths.h"
+#include "device_name.h"
 #include "nearest_name.h"
 #include "toml_entries.h"
 
@@ -91,6 +92,14 @@ struct Taker
     {
         const auto* text = std::get_if<std::string>(&value);
         if (text == nullptr || !is_path(*text))
+            return false;
+        key.reach(config) = *text;
+        return true;
+    }
+    bool operator()(const NameKey& key) const
+    {
+        const auto* text = std::get_if<std::string>(&value);
+        if (text == nullptr || (!text->empty() && !is_device_name(*text)))
             return false;
         key.reach(config) = *text;
         return true;

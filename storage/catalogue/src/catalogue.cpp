@@ -15,6 +15,8 @@ constexpr std::int64_t kPaceRows = 200;
 constexpr double kDayUs = 86'400e6;
 /// A longer step between two rows is a clock that was set, or a board that was put away.
 constexpr double kLongestStepUs = 31 * kDayUs;
+/// Of a series that has just begun, or of trials by hand, nothing follows for a season.
+constexpr double kLeastSpanUs = kDayUs / 4;
 
 bool fits(const SlotRow& row, const SlotQuery& query)
 {
@@ -185,7 +187,7 @@ Result<SlotPace> SqlCatalogue::pace()
         return true;
     }));
     pace.bytes_per_snapshot = done > 0 ? done_bytes / done : 0;
-    pace.bytes_per_day = counted_us > 0 ? counted_bytes / counted_us * kDayUs : 0;
+    pace.bytes_per_day = counted_us >= kLeastSpanUs ? counted_bytes / counted_us * kDayUs : 0;
     return pace;
 }
 

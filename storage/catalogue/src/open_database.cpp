@@ -107,10 +107,13 @@ Status be_ready_to_write(const Database& database)
 /// That an honest page tree stands in the file: rows are put into it from now on.
 Status check_structure(const Database& database)
 {
-    Statement check = TRY(Statement::prepare(database, "PRAGMA quick_check(1)"));
-    if (!TRY(check.step()) || check.text(0) != "ok")
-        return database.damaged("its pages contradict each other");
-    return {};
+    // A page that cannot be read is a complaint like any other: once is no reason to part with the file.
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        Statement check = TRY(Statement::prepare(database, "PRAGMA quick_check(1)"));
+        if (TRY(check.step()) && check.text(0) == "ok")
+            return {};
+    }
+    return database.damaged("its pages contradict each other");
 }
 
 } // namespace

@@ -27,7 +27,7 @@ bool is_name_character(char c)
 
 ShortText<31> snapshot_name(const SnapshotName& name)
 {
-    char text[32];
+    char text[64]; // as much as the types could hold
     std::snprintf(text, sizeof text, "%06" PRId64 "_%s", name.sequence, utc_stamp(name.began_us).c_str());
     return text;
 }

@@ -97,7 +97,10 @@ Result<Incoming::Settled> Incoming::settle()
     TRY(sync_files());
     TRY(prepare_day());
     TRY(move_into_place());
-    TRY(sync_day());
+    const Status synced = sync_day();
+    if (!synced.ok())
+        move_back();
+    TRY(synced);
     return settled;
 }
 
@@ -136,6 +139,12 @@ Status Incoming::move_into_place()
     TRY(on_card(medium_.rename(part_.c_str(), target_.c_str()), target_.c_str(), "renaming"));
     begun_ = false;
     return {};
+}
+
+/// What may not last is not to be seen; it can be taken back.
+void Incoming::move_back()
+{
+    begun_ = medium_.rename(target_.c_str(), part_.c_str()).ok();
 }
 
 Status Incoming::sync_day()

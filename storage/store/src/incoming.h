@@ -43,6 +43,7 @@ private:
     Status prepare_day();
     Status move_into_place();
     Status sync_day();
+    void move_back();
 
     Medium& medium_;
     void name_it(const SnapshotName& name);

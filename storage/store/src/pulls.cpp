@@ -68,6 +68,10 @@ Status mark_pulls(Medium& medium, Catalogue& catalogue, std::span<const Pull> pu
     for (const Pull& pull : pulls) {
         SlotRow row = TRY(pulled_row(catalogue, pull));
         row.pulled_us = pulled_time(medium, folder_of(row), row.sums);
+        if (!row.pulled_us)
+            return failure(Fault::kIoError,
+                           "%s/%s: the mark of the pull cannot be read; dicot verify --repair mends it",
+                           folder_of(row).c_str(), kPulledMark);
         TRY(catalogue.put(row));
     }
     return {};

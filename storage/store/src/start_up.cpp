@@ -61,16 +61,24 @@ Status end_one(Medium& medium, Catalogue& catalogue, const StorePath& leaf, cons
     return catalogue.put(TRY(row_of(medium, target, *name, desk)));
 }
 
-std::int64_t highest_name(Medium& medium, const char* folder)
+Result<std::int64_t> highest_name(Medium& medium, const char* folder)
 {
     std::int64_t highest = 0;
-    (void)medium.list(folder, [&](const MediumEntry& entry) {
+    const Errno listed = medium.list(folder, [&](const MediumEntry& entry) {
         // In quarantine names may have got an end.
         if (const auto name = parse_snapshot_name(entry.name.substr(0, entry.name.find('.'))))
             highest = std::max(highest, name->sequence);
         return true;
     });
+    TRY(on_card(listed, folder, "listing it"));
     return highest;
+}
+
+/// Also if that cannot be told.
+bool may_have_mark(Medium& medium, const StorePath& folder)
+{
+    EntryKind kind{};
+    return medium.kind_of(join(folder.view(), kPulledMark).c_str(), kind).number() != ENOENT;
 }
 
 } // namespace
@@ -103,18 +111,24 @@ Result<std::unique_ptr<Catalogue>> open_catalogue(Medium& medium, const std::str
     return Catalogue::open(path, Catalogue::Access::kWrite, vfs);
 }
 
-Status add_rows(Medium& medium, Catalogue& catalogue, const ReadingDesk& desk, StartReport& report)
+Result<bool> add_rows(Medium& medium, Catalogue& catalogue, const ReadingDesk& desk, StartReport& report,
+                      std::int64_t& highest)
 {
     TRY(catalogue.begin());
+    bool all = true;
     Status status;
     const Status walked = for_each_folder(medium, [&](const StorePath& folder, const SnapshotName& name) {
         status = [&]() -> Status {
+            highest = std::max(highest, name.sequence);
             std::optional<SlotRow> row = TRY(catalogue.find(name.sequence));
             if (!row) {
                 const Result<SlotRow> fresh = row_of(medium, folder, name, desk);
-                if (!fresh.ok()) // damaged: verify names it
+                if (!fresh.ok()) { // damaged: verify names it
+                    all = all && fresh.status().fault() == Fault::kBadData;
                     return {};
+                }
                 ++report.rows_added;
+                all = all && (fresh.value().pulled_us || !may_have_mark(medium, folder));
                 return catalogue.put(fresh.value());
             }
             if (row->began_us != name.began_us)
@@ -123,13 +137,17 @@ Status add_rows(Medium& medium, Catalogue& catalogue, const ReadingDesk& desk, S
             now.kept = Kept::kHere;
             if (!now.pulled_us)
                 now.pulled_us = pulled_time(medium, folder, now.sums);
+            all = all && (now.pulled_us || !may_have_mark(medium, folder));
             return now == *row ? Status{} : catalogue.put(now);
         }();
         return status.ok();
     });
+    // Also after a failure: each row is right, and nothing else may come into this transaction.
+    const Status committed = catalogue.commit();
     TRY(status);
     TRY(walked);
-    return catalogue.commit();
+    TRY(committed);
+    return all;
 }
 
 Status end_interrupted(Medium& medium, Catalogue& catalogue, const ReadingDesk& desk, StartReport& report)
@@ -153,7 +171,7 @@ Result<std::int64_t> last_sequence_of(Medium& medium, Catalogue& catalogue)
 {
     std::int64_t last = TRY(catalogue.last_sequence());
     for (const char* const folder : {kIncoming, kLeaving, kQuarantine})
-        last = std::max(last, highest_name(medium, folder));
+        last = std::max(last, TRY(highest_name(medium, folder)));
     return last;
 }
 

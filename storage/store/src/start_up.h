@@ -18,14 +18,16 @@ Status make_rooms(Medium& medium);
 Result<std::unique_ptr<Catalogue>> open_catalogue(Medium& medium, const std::string& path, const char* vfs,
                                                   StartReport& report);
 
-/// Rows for all folders that have none, and marks that rows have lost.
-Status add_rows(Medium& medium, Catalogue& catalogue, const ReadingDesk& desk, StartReport& report);
+/// Rows for all folders that have none, and marks that rows have lost. False: the card would not let it read a folder,
+/// and a later start may have more luck. `highest` becomes the highest number that a folder has, if that is more.
+Result<bool> add_rows(Medium& medium, Catalogue& catalogue, const ReadingDesk& desk, StartReport& report,
+                      std::int64_t& highest);
 
 /// Every snapshot in incoming/ gets its place: as it is if it is whole, else as a miss. What cannot be mended goes to
 /// quarantine, or stays: it never blocks the start.
 Status end_interrupted(Medium& medium, Catalogue& catalogue, const ReadingDesk& desk, StartReport& report);
 
-/// The highest number that was ever given, by the rows and by all names.
+/// The highest number that was ever given, by the rows and by the names in all rooms.
 Result<std::int64_t> last_sequence_of(Medium& medium, Catalogue& catalogue);
 
 /// Moves an entry to quarantine/ under its own name, or with ".2" and so on.

@@ -7,6 +7,7 @@
 #include "snapshot_folder.h"
 #include "start_up.h"
 #include "verify.h"
+#include "writing_mark.h"
 
 #include "dicot/base/utc_time.h"
 
@@ -25,7 +26,7 @@ class CardStore final : public Store
 {
 public:
     CardStore(Medium& medium, const StoreRules& rules, ReadingDesk desk)
-        : medium_(medium), rules_(rules), desk_(std::move(desk)), incoming_(medium)
+        : medium_(medium), rules_(rules), desk_(std::move(desk)), incoming_(medium), mark_(medium)
     {
     }
     ~CardStore() override;
@@ -42,7 +43,7 @@ public:
     void for_each_added(FunctionRef<void(const Added&)> visit) const override { incoming_.for_each_added(visit); }
     Status take_back() override;
     Status commit(const SlotOutcome& outcome) override;
-    Status mark_pulled(std::span<const Pull> pulls) override { return mark_pulls(medium_, *catalogue_, pulls); }
+    Status mark_pulled(std::span<const Pull> pulls) override;
     Result<PruneReport> prune(const PruneWish& wish, FunctionRef<void(const SlotRow&)> going) override
     {
         return prune_folders(medium_, *catalogue_, rules_.prune, wish, going);
@@ -64,26 +65,18 @@ private:
     StartReport report_;
     SlotTime time_;
     std::int64_t last_ = 0;
+    WritingMark mark_;
+    bool rows_missing_ = true; ///< perhaps: the next start looks at all folders
+    bool row_owed_ = false;    ///< the same, since the catalogue failed; the next snapshot tries again
 };
 
 CardStore::~CardStore()
 {
     // Only rows that last let the next start go without a look at all folders.
-    if (catalogue_ != nullptr && catalogue_->sync().ok())
-        (void)medium_.remove_file(kWriting);
+    if (catalogue_ != nullptr && !rows_missing_ && !row_owed_ && catalogue_->sync().ok())
+        mark_.remove();
     catalogue_.reset();
     medium_.unlock();
-}
-
-/// Whether another process ended, or the power went, while it wrote.
-bool mark_writing(Medium& medium)
-{
-    if (is_there(medium, kWriting))
-        return true;
-    // A card that is full up to this is no reason not to start: pruning may help.
-    if (!write_file(medium, kWriting, {}).ok() && release_ballast(medium))
-        (void)write_file(medium, kWriting, {}).ok();
-    return false;
 }
 
 Status CardStore::start(const std::string& path, const char* vfs)
@@ -95,10 +88,11 @@ Status CardStore::start(const std::string& path, const char* vfs)
     if (!make_rooms(medium_).ok() && release_ballast(medium_))
         TRY(make_rooms(medium_));
     TRY(make_rooms(medium_));
-    TRY(open_catalogue_and_rows(path, vfs, mark_writing(medium_)));
+    TRY(open_catalogue_and_rows(path, vfs, mark_.put()));
     TRY(finish_leaving(medium_, *catalogue_));
-    last_ = TRY(last_sequence_of(medium_, *catalogue_));
+    last_ = std::max(last_, TRY(last_sequence_of(medium_, *catalogue_)));
     TRY(end_interrupted(medium_, *catalogue_, desk_, report_));
+    rows_missing_ = rows_missing_ || report_.left_over > 0;
     keep_ballast(medium_, rules_.reserve_bytes);
     return {};
 }
@@ -113,13 +107,19 @@ Status CardStore::open_catalogue_and_rows(const std::string& path, const char* v
         catalogue_ = TRY(open_catalogue(medium_, path, vfs, report_));
     else
         return opened.status();
-    return was_interrupted || report_.catalogue_new ? add_rows(medium_, *catalogue_, desk_, report_) : Status{};
+    rows_missing_ = was_interrupted || report_.catalogue_new;
+    if (rows_missing_)
+        rows_missing_ = !TRY(add_rows(medium_, *catalogue_, desk_, report_, last_));
+    return {};
 }
 
 Status CardStore::begin(const SlotTime& time)
 {
     if (incoming_.begun())
         TRY(end_interrupted(medium_, *catalogue_, desk_, report_));
+    if (row_owed_)
+        row_owed_ = !add_rows(medium_, *catalogue_, desk_, report_, last_).ok();
+    TRY(mark_.make_sure());
     if (last_ >= kMaxSequence)
         return failure(Fault::kBadData, "the sequence numbers have come to their end at %lld; begin a new store",
                        static_cast<long long>(last_));
@@ -178,20 +178,33 @@ Status CardStore::take_back()
 
 Status CardStore::commit(const SlotOutcome& outcome)
 {
-    const Incoming::Settled settled = TRY(incoming_.settle());
-    TRY(catalogue_->put({.sequence = last_,
-                         .began_us = time_.began_us,
-                         .due_us = time_.due_us,
-                         .done = outcome.done,
-                         .reason = outcome.reason,
-                         .clock_trust = outcome.clock_trust,
-                         .points = outcome.points,
-                         .bytes = settled.bytes,
-                         .sums = settled.sums,
-                         .pulled_us = {},
-                         .kept = Kept::kHere}));
+    const bool was_begun = incoming_.begun();
+    const Result<Incoming::Settled> settled = incoming_.settle();
+    if (!settled.ok()) {
+        row_owed_ = row_owed_ || (was_begun && !incoming_.begun());
+        return settled.status();
+    }
+    const Status put = catalogue_->put({.sequence = last_,
+                                        .began_us = time_.began_us,
+                                        .due_us = time_.due_us,
+                                        .done = outcome.done,
+                                        .reason = outcome.reason,
+                                        .clock_trust = outcome.clock_trust,
+                                        .points = outcome.points,
+                                        .bytes = settled.value().bytes,
+                                        .sums = settled.value().sums,
+                                        .pulled_us = {},
+                                        .kept = Kept::kHere});
+    row_owed_ = row_owed_ || !put.ok(); // stored all the same: the folder says everything that the row does
     keep_ballast(medium_, rules_.reserve_bytes);
     return {};
+}
+
+Status CardStore::mark_pulled(std::span<const Pull> pulls)
+{
+    const Status marked = mark_pulls(medium_, *catalogue_, pulls);
+    row_owed_ = row_owed_ || marked.fault() == Fault::kIoError; // some marks may be in their place
+    return marked;
 }
 
 Result<VerifyReport> CardStore::verify(bool repair, FunctionRef<void(const Finding&)> found,
@@ -225,7 +238,8 @@ Result<std::unique_ptr<Catalogue>> read_catalogue(Medium& medium, const std::str
     auto copy = TRY(Catalogue::open(":memory:", Catalogue::Access::kWrite));
     const ReadingDesk desk = TRY(ReadingDesk::make());
     StartReport report;
-    TRY(add_rows(medium, *copy, desk, report));
+    std::int64_t highest = 0;
+    (void)TRY(add_rows(medium, *copy, desk, report, highest));
     return copy;
 }
 

@@ -186,6 +186,7 @@ Status Verifier::compare_row(const StorePath& folder, const SnapshotName& name)
 Status Verifier::take_away(const StorePath& folder, const SnapshotName& name)
 {
     TRY(quarantine(medium_, folder));
+    TRY(on_card(medium_.sync_all(), kQuarantine, "syncing")); // before its day goes
     ++report_.mended;
     (void)medium_.remove_folder(utc_day(name.began_us).c_str()); // if it was the last one of its day
     std::optional<SlotRow> row = TRY(catalogue_.find(name.sequence));
@@ -212,10 +213,13 @@ Status Verifier::look_for_lost()
     }));
     for (SlotRow& row : lost) {
         const bool mended = repairs();
-        row.kept = Kept::kLost;
+        const StorePath aside = join(kQuarantine, snapshot_name({row.sequence, row.began_us}).view());
+        const bool moved = is_there(medium_, aside.c_str()); // and then the power went
+        row.kept = moved ? Kept::kQuarantined : Kept::kLost;
         if (mended)
             TRY(catalogue_.put(row));
-        find(Kind::kMissing, row.sequence, folder_of(row), "the catalogue has it, and the folder is not there", mended);
+        const char* const where = moved ? "it is in quarantine" : "the folder is not there";
+        find(Kind::kMissing, row.sequence, folder_of(row), where, mended);
     }
     return {};
 }

@@ -1,10 +1,9 @@
-# One snapshot through each driver, before the cloud that was made of the files: runs in the virtual machine.
-#expect snap.v4l2.equals_process snap.uvc.equals_process snap.missed_camera
+# One snapshot through each driver, beside the cloud that was made of the files: runs in the virtual machine.
+#expect snap.v4l2.equals_process snap.uvc.equals_process snap.store snap.missed_camera
 # shellcheck source=tests/vm/guest/cameras.sh
 . /vm/cameras.sh
 
 snap() { # driver, window
-    rm -rf shots
     sed "s/DRIVER/$1/; s/WINDOW/$2/" /files/dicot.toml >snap.toml
     timeout 360 dicot snap --config snap.toml -o shots --json >snap.log 2>&1
     code=$?
@@ -16,16 +15,24 @@ equals() { # driver, window
     snap "$1" "$2" || return
     grep '"outcome": "done"' snap.log && grep '"source": "cameras"' snap.log || return
     [ "$(grep -c "\"driver\": \"$1\"" snap.log)" = 2 ] || return
-    cmp shots/*/cloud.drc "/files/$1.drc"
+    dicot export "shots/board/$(folder)/cloud.drc" -o cloud.ply || return
+    sh /vm/points.sh cloud.ply | cmp - "/files/$1.points"
+}
+folder() { # of the newest slot
+    dicot list --store shots --last 1 --json | sed -n 's/.*"folder": *"\([^"]*\)".*/\1/p'
 }
 start ,fps=15/5
 judge snap.v4l2.equals_process equals v4l2 35
 judge snap.uvc.equals_process equals uvc 11
+stored() {
+    dicot verify --store shots && dicot show 2 --store shots && [ "$(echo shots/board/*/*/cloud.drc | wc -w)" = 2 ]
+}
+judge snap.store stored
 # No cloud and no half of one, but a record that tells why.
 missed() {
     say "right now unplug" && await 60 test ! -e /sys/bus/usb/devices/1-2 || return
-    ! snap v4l2 11 && ls shots && ! ls shots/*/cloud.drc && grep '"outcome": "missed"' shots/*/record.json &&
-        grep '"reason": ".*1-2.*"' shots/*/record.json
+    ! snap v4l2 11 && at=shots/board/$(folder) && ls "$at" && [ ! -e "$at/cloud.drc" ] &&
+        grep '"outcome": "missed"' "$at/record.json" && grep '"reason": ".*1-2.*"' "$at/record.json"
 }
 judge snap.missed_camera missed
 finish

@@ -56,18 +56,19 @@ struct SlotTotals
 /// How fast the card fills: of the newest rows.
 struct SlotPace
 {
-    double bytes_per_day = 0;      ///< 0: not known, there are fewer than two or their clock stood still
+    double bytes_per_day = 0;      ///< 0: not known, they are of less than six hours
     double bytes_per_snapshot = 0; ///< of those done
     std::int64_t most_bytes = 0;   ///< largest of them
 };
 
 /// SQLite in WAL mode: a transaction appends to one file, readers and the writer never wait for each other. Not synced
 /// at each row, so power may take the newest rows, never the file: the store adds them again from the folders. All of
-/// SQLite's memory comes from one block of kHeapBytes, taken when the first catalogue is opened.
+/// SQLite's memory comes from one block of kHeapBytes, taken when the first catalogue is opened; a board touches half a
+/// MiB of it, a reader that keeps rows in memory a tenth of a KiB for each.
 class Catalogue
 {
 public:
-    static constexpr std::size_t kHeapBytes = std::size_t{2} << 20;
+    static constexpr std::size_t kHeapBytes = std::size_t{8} << 20;
 
     enum class Access
     {

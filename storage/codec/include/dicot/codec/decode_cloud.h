@@ -22,8 +22,8 @@ struct CloudOutline
     CloudMeta meta;
 };
 
-/// Reads the outline. Accepts only what encode_cloud() writes or wrote; anything else, also a Draco file of another make, is
-/// refused with `name` in the sentence (Fault::kBadData).
+/// Reads the outline. Accepts only what encode_cloud() writes or wrote; anything else, also a Draco file of another
+/// make, is refused with `name` in the sentence (Fault::kBadData).
 Result<CloudOutline> outline_of(std::span<const std::byte> file, const char* name);
 
 /// The heap that decode_cloud() needs for a cloud of `points` points. A damaged file may ask for more: it is refused.

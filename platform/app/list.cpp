@@ -1,0 +1,194 @@
+// dicot list: every slot, done or missed, and how long the card will last.
+#include "commands.h"
+#include "store/shown.h"
+#include "store/slot_words.h"
+#include "store/store_words.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+namespace dicot::app {
+namespace {
+
+struct Words
+{
+    StoreWords store;
+    std::string since, until;
+    std::optional<std::int64_t> last;
+    bool missed = false;
+    bool json = false;
+};
+
+Result<TimeSpan> time_of(const char* word, const std::string& text)
+{
+    const std::optional<TimeSpan> span = parse_time(text);
+    if (!span)
+        return failure(Fault::kUsage, "%s is %s: give a day or a time in UTC, as 2026-06-01 or 2026-06-01T12:30", word,
+                       shown(text).c_str());
+    return *span;
+}
+
+Result<SlotQuery> query_of(const Words& words)
+{
+    SlotQuery query;
+    if (!words.since.empty())
+        query.since_us = TRY(time_of("--since", words.since)).first_us;
+    if (!words.until.empty())
+        query.until_us = TRY(time_of("--until", words.until)).last_us;
+    query.missed_only = words.missed;
+    query.last = words.last;
+    return query;
+}
+
+/// What is told of a store beside its rows.
+struct Summary
+{
+    SlotTotals totals;
+    SlotPace pace;
+    MediumSpace space;
+    std::uint64_t reserve_bytes = 0;
+
+    double room_bytes() const
+    {
+        return space.free_bytes > reserve_bytes ? static_cast<double>(space.free_bytes - reserve_bytes) : 0;
+    }
+    /// None: it is not known how fast the card fills.
+    std::optional<double> days_left() const
+    {
+        return pace.bytes_per_day > 0 ? std::optional{room_bytes() / pace.bytes_per_day} : std::nullopt;
+    }
+};
+
+Result<Summary> summary_of(ReadStore& store, const StoreRules& rules, const std::string& path)
+{
+    Summary summary;
+    summary.totals = TRY(store.catalogue->totals());
+    summary.pace = TRY(store.catalogue->pace());
+    summary.reserve_bytes = rules.reserve_bytes;
+    if (!store.medium->space(summary.space).ok())
+        return failure(Fault::kIoError, "%s: the file system does not tell its free space", shown(path).c_str());
+    return summary;
+}
+
+void print(const Summary& summary)
+{
+    const SlotTotals& totals = summary.totals;
+    std::printf("%s: %lld done, %lld missed; %lld pulled, %lld pruned, %lld in quarantine, %lld lost; %s here\n",
+                counted(totals.slots, "slot").c_str(), static_cast<long long>(totals.done),
+                static_cast<long long>(totals.missed), static_cast<long long>(totals.pulled),
+                static_cast<long long>(totals.pruned), static_cast<long long>(totals.quarantined),
+                static_cast<long long>(totals.lost), shown_bytes(static_cast<double>(totals.bytes_here)).c_str());
+    std::printf("%s free, %s of it reserved: ", shown_bytes(static_cast<double>(summary.space.free_bytes)).c_str(),
+                shown_bytes(static_cast<double>(summary.reserve_bytes)).c_str());
+    constexpr double kManyYears = 3650;
+    const std::optional<double> days = summary.days_left();
+    if (!days)
+        std::printf("how long that lasts is not known yet\n");
+    else if (*days > kManyYears)
+        std::printf("room for more than ten years at %s a day\n", shown_bytes(summary.pace.bytes_per_day).c_str());
+    else
+        std::printf("room for %.1f days at %s a day\n", *days, shown_bytes(summary.pace.bytes_per_day).c_str());
+}
+
+nlohmann::json summary_json(const Summary& summary)
+{
+    const SlotTotals& totals = summary.totals;
+    const std::optional<double> days = summary.days_left();
+    return {{"slots", totals.slots},
+            {"done", totals.done},
+            {"missed", totals.missed},
+            {"pulled", totals.pulled},
+            {"pruned", totals.pruned},
+            {"quarantined", totals.quarantined},
+            {"lost", totals.lost},
+            {"bytes_here", totals.bytes_here},
+            {"bytes_per_day",
+             summary.pace.bytes_per_day > 0 ? nlohmann::json(summary.pace.bytes_per_day) : nlohmann::json()},
+            {"bytes_per_snapshot", summary.pace.bytes_per_snapshot},
+            {"largest_snapshot_bytes", summary.pace.most_bytes},
+            {"free_bytes", summary.space.free_bytes},
+            {"total_bytes", summary.space.total_bytes},
+            {"reserve_bytes", summary.reserve_bytes},
+            {"days_left", days ? nlohmann::json(*days) : nlohmann::json()}};
+}
+
+/// A table for each board; a store of years is printed as it is read.
+Status list_as_text(const FoundStores& found, const SlotQuery& query)
+{
+    const StoreRules rules = rules_of(found.output);
+    bool first = true;
+    for (const DeviceFolder& device : found.devices) {
+        ReadStore store = TRY(ReadStore::open(device.path));
+        const Summary summary = TRY(summary_of(store, rules, device.path));
+        std::printf("%s%s\n%-15s  %s\n", first ? "" : "\n", shown(device.path).c_str(), "device",
+                    slot_heading().c_str());
+        first = false;
+        const std::string name = shown(device.device);
+        std::int64_t rows = 0;
+        TRY(store.catalogue->for_each(query, [&](const SlotRow& row) {
+            ++rows;
+            std::printf("%-15s  %s\n", name.c_str(), slot_line(row).c_str());
+            return std::ferror(stdout) == 0;
+        }));
+        if (rows < summary.totals.slots)
+            std::printf("%s shown; in all ", counted(rows, "slot").c_str());
+        print(summary);
+    }
+    if (found.devices.empty())
+        std::printf("%s: there is no snapshot yet: dicot snap makes one\n", shown(found.root).c_str());
+    return {};
+}
+
+/// One document, one line a slot.
+Status list_as_json(const FoundStores& found, const SlotQuery& query)
+{
+    const StoreRules rules = rules_of(found.output);
+    std::printf("{\"root\": %s, \"stores\": [", json_text(found.root).c_str());
+    const char* before_store = "\n";
+    for (const DeviceFolder& device : found.devices) {
+        ReadStore store = TRY(ReadStore::open(device.path));
+        const Summary summary = TRY(summary_of(store, rules, device.path));
+        std::printf("%s{\"device\": %s, \"path\": %s, \"summary\": %s, \"slots\": [", before_store,
+                    json_text(device.device).c_str(), json_text(device.path).c_str(),
+                    json_text(summary_json(summary), -1).c_str());
+        before_store = ",\n";
+        const char* before_row = "\n";
+        TRY(store.catalogue->for_each(query, [&](const SlotRow& row) {
+            std::printf("%s%s", before_row, json_text(slot_json(row), -1).c_str());
+            before_row = ",\n";
+            return std::ferror(stdout) == 0;
+        }));
+        std::printf("]}");
+    }
+    std::printf("]}\n");
+    return {};
+}
+
+Status run(const Words& words)
+{
+    const SlotQuery query = TRY(query_of(words));
+    const FoundStores found = TRY(words.store.find());
+    return words.json ? list_as_json(found, query) : list_as_text(found, query);
+}
+
+} // namespace
+
+void add_list(CLI::App& program, Command& chosen)
+{
+    CLI::App* command = program.add_subcommand(
+        "list", "The slots of a store: done, missed and why, pulled when; and what room is left");
+    auto words = std::make_shared<Words>();
+    command->add_option("--since", words->since, "from this day or time on, UTC")->type_name("TIME");
+    command->add_option("--until", words->until, "to the end of this day or time, UTC")->type_name("TIME");
+    command->add_flag("--missed", words->missed, "the missed ones alone");
+    command->add_option("--last", words->last, "the newest ones alone, so many of each board")
+        ->check(CLI::PositiveNumber);
+    words->store.add_to(*command);
+    command->add_flag("--json", words->json, "report as JSON, one line a slot");
+    command->callback([words, &chosen] { chosen = [words] { return run(*words); }; });
+}
+
+} // namespace dicot::app

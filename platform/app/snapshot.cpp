@@ -1,0 +1,174 @@
+#include "snapshot.h"
+
+#include "cameras/shot_record.h"
+#include "cloud_report.h"
+#include "sealed_heap.h"
+#include "store/slot_record.h"
+
+#include "dicot/base/printable.h"
+#include "dicot/base/utc_time.h"
+#include "dicot/os/process_memory.h"
+#include "dicot/record/record.h"
+
+#include <span>
+
+namespace dicot::app {
+namespace {
+
+CloudWords cloud_words(const Config& config)
+{
+    CloudWords words;
+    words.rig = config.rig.file;
+    words.near_mm = config.rig.near_mm;
+    words.far_mm = config.rig.far_mm;
+    words.match.method = config.matching.method;
+    words.match.cost = config.matching.cost;
+    words.match.cpu = config.matching.cpu;
+    words.match.threads = config.matching.threads;
+    words.match.options.window = config.matching.window;
+    words.match.options.gamma_color = config.matching.gamma_color;
+    words.match.options.gamma_space = config.matching.gamma_space;
+    return words;
+}
+
+struct Size
+{
+    int width, height;
+};
+
+/// Recorded pictures alone have a size of their own.
+Result<Size> picture_size(const Config& config)
+{
+    if (config.cameras.left.by != BoundBy::kReplay)
+        return Size{config.cameras.width, config.cameras.height};
+    const RigStream recorded = TRY(RigStream::open(config, Pace::kAtOnce));
+    return Size{recorded.width(), recorded.height()};
+}
+
+/// A store's snapshot as a shelf.
+class StoreShelf final : public FileShelf
+{
+public:
+    explicit StoreShelf(Store& store) : store_(store) {}
+    Status put(const char* name, FunctionRef<Status(ByteSink&)> fill) override { return store_.add(name, fill); }
+
+private:
+    Store& store_;
+};
+
+Status shoot(const Config& config, const SnapshotWords& words, SnapshotBench& bench, const ClockReading& clock,
+             Store& store, SnapshotTold& told)
+{
+    CloudWork& work = *bench.work;
+    RigStream rig = TRY(RigStream::open(config, Pace::kAtOnce));
+    if (rig.width() != bench.plan.rig.width || rig.height() != bench.plan.rig.height)
+        return failure(Fault::kBadData, "the cameras' pictures are %d x %d px, and were %d x %d a moment ago",
+                       rig.width(), rig.height(), bench.plan.rig.width, bench.plan.rig.height);
+    StoreShelf shelf(store);
+    Shot shot(rig, config, words.raw ? &shelf : nullptr);
+    PictureNames names;
+    names.left = "left.jpg";
+    if (words.preview)
+        names.preview = "preview.png";
+    CloudMeta meta = bench.plan.meta;
+    meta.device_id = std::string_view{words.device};
+    meta.clock_trust = name_of(clock.trust);
+    meta.sequence = store.sequence();
+    Status status;
+    {
+        const SealedHeap sealed;
+        status = [&]() -> Status {
+            TRY(work.see(shot, names, shelf, false));
+            meta.captured_at = utc_text(shot.figures().taken_us).view();
+            meta.skew_us = shot.figures().burst.skew_us;
+            TRY(work.encode(meta));
+            TRY(work.write_cloud("cloud.drc", shelf));
+            return work.write_preview(names, shelf);
+        }();
+    }
+    told.record["cameras"] = cameras_record(rig);
+    if (shot.figures().burst.used > 0) {
+        told.record["shot"] = shot_record(shot.figures());
+        told.warnings = shot_warnings(rig, shot.figures());
+    }
+    TRY(status);
+    told.record["cloud"] = cloud_report(work, config.matching.method, TRY(process_memory()).peak_bytes);
+    told.record["calibration_id"] = bench.plan.meta.calibration_id.c_str();
+    return {};
+}
+
+/// The last file, and the commit.
+Status store_it(SnapshotTold& told, const ClockReading& clock, Store& store)
+{
+    const bool done = told.status.ok();
+    told.record["outcome"] = done ? "done" : "missed";
+    told.record["reason"] = done ? nlohmann::json() : nlohmann::json(told.status.message());
+    told.record["warnings"] = told.warnings;
+    files_into(told.record, store);
+    const std::string text = text_of_record(told.record) + "\n";
+    TRY(store.add("record.json", [&](ByteSink& sink) { return sink.write(std::as_bytes(std::span{text})); }));
+    SlotOutcome outcome;
+    outcome.done = done;
+    outcome.reason = printable<outcome.reason.kCapacity>(told.status.message()); // as the record's reader has it
+    outcome.clock_trust = name_of(clock.trust);
+    outcome.points = done ? told.record["cloud"]["points"].get<std::int64_t>() : 0;
+    return store.commit(outcome);
+}
+
+} // namespace
+
+std::string text_of_record(const nlohmann::json& record)
+{
+    return record.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+Result<std::unique_ptr<SnapshotBench>> SnapshotBench::make(const Config& config)
+{
+    const Size size = TRY(picture_size(config));
+    auto bench = std::make_unique<SnapshotBench>();
+    bench->plan = TRY(make_cloud_plan(cloud_words(config), size.width, size.height, "the cameras' picture"));
+    bench->work = TRY(CloudWork::make(bench->plan, Shot::scratch_bytes(size.width, size.height)));
+    return bench;
+}
+
+Result<SnapshotTold> take_snapshot(const Config& config, const SnapshotWords& words,
+                                   const Result<std::unique_ptr<SnapshotBench>>& bench, const ClockReading& clock,
+                                   Store& store)
+{
+    TRY(store.begin({.began_us = clock.now_us, .due_us = {}}));
+    SnapshotTold told;
+    told.folder = store.folder();
+    told.record = {{"format", kRecordFormat},
+                   {"software", "dicot " DICOT_VERSION},
+                   {"sequence", store.sequence()},
+                   {"device", words.device},
+                   {"time", utc_text(clock.now_us).view()},
+                   {"due", nullptr},
+                   {"source", words.source},
+                   {"clock", clock_record(clock)},
+                   {"temperatures_c", temperatures_record()},
+                   {"parameters", parameters_record(config)},
+                   {"store", start_record(store.start_report())}};
+    told.status = store.make_room();
+    if (told.status.ok())
+        told.status = bench.status();
+    if (told.status.ok())
+        told.status = shoot(config, words, *bench.value(), clock, store, told);
+    told.record["memory"] = memory_record(bench.ok() ? bench.value()->work->budget().total() : 0);
+    Status stored;
+    if (told.status.ok()) {
+        stored = store_it(told, clock, store);
+        told.status = stored; // what cannot be stored was not done
+    }
+    if (!told.status.ok()) {
+        told.record.erase("cloud"); // taken back as its file is
+        told.record.erase("calibration_id");
+        stored = store.take_back();
+        if (stored.ok())
+            stored = store_it(told, clock, store);
+    }
+    told.stored = stored.ok();
+    return told;
+}
+
+} // namespace dicot::app

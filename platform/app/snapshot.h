@@ -1,0 +1,56 @@
+// One slot of a series: from the cameras into the store, or a written reason why not.
+#pragma once
+
+#include "cloud_work.h"
+#include "config/config.h"
+
+#include "dicot/os/clock_trust.h"
+#include "dicot/store/store.h"
+
+#include <nlohmann/json.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dicot::app {
+
+/// Tables, threads and memory of a snapshot, all taken before anything begins.
+struct SnapshotBench
+{
+    CloudPlan plan;
+    std::unique_ptr<CloudWork> work;
+
+    /// Fault::kConfig, kUsage: the configuration asks for what cannot be. Errors: those of make_cloud_plan() and
+    /// CloudWork::make(); of recorded pictures, those of RigStream::open().
+    static Result<std::unique_ptr<SnapshotBench>> make(const Config& config);
+};
+
+struct SnapshotWords
+{
+    bool raw = false;
+    bool preview = false;
+    std::string device; ///< is_device_name()
+    const char* source = "cameras";
+};
+
+/// What a slot came to.
+struct SnapshotTold
+{
+    nlohmann::json record; ///< as record.json has it
+    std::vector<std::string> warnings;
+    std::string folder;  ///< from the store's folder
+    Status status;       ///< ok, or why it was missed
+    bool stored = false; ///< a miss too: its record is in its place
+};
+
+/// Takes the next number, shoots, and commits what there is: everything, or the record of a miss alone. A fault of
+/// `bench` is a miss as well. Error: the store gives no number.
+Result<SnapshotTold> take_snapshot(const Config& config, const SnapshotWords& words,
+                                   const Result<std::unique_ptr<SnapshotBench>>& bench, const ClockReading& clock,
+                                   Store& store);
+
+/// Paths and names may hold bytes that are no UTF-8.
+std::string text_of_record(const nlohmann::json& record);
+
+} // namespace dicot::app

@@ -1,0 +1,68 @@
+// The words by which a command is told which stores are meant, and where these are.
+#pragma once
+
+#include "../config_words.h"
+
+#include "dicot/store/store.h"
+
+#include <string>
+#include <vector>
+
+namespace dicot::app {
+
+/// The folder of one board.
+struct DeviceFolder
+{
+    std::string device; ///< its name; whatever the folder is called
+    std::string path;
+};
+
+struct FoundStores
+{
+    OutputConfig output;
+    std::string root; ///< where was looked
+    std::vector<DeviceFolder> devices;
+};
+
+struct StoreWords
+{
+    ConfigWords config;
+    std::string root;   ///< empty: output.folder
+    std::string device; ///< empty: all
+
+    void add_to(CLI::App& command);
+    /// The boards' folders in the root, by name, or the root itself where it is one. Fault::kNoInput: there is no such
+    /// folder, it cannot be read, no board in it has that name. Errors: those of load_config().
+    Result<FoundStores> find() const;
+};
+
+/// Whether snapshots of one board lie in this folder: it has a catalogue, or folders named by days. Links are not
+/// followed.
+bool is_device_folder(const std::string& path);
+
+StoreRules rules_of(const OutputConfig& output);
+
+/// When the newest slot began, by the clock of then; none: there is no slot.
+Result<std::optional<std::int64_t>> newest_time(Catalogue& catalogue);
+
+/// A store that is only read. The catalogue is that of the file, or made of the folders.
+struct ReadStore
+{
+    std::unique_ptr<Medium> medium;
+    std::unique_ptr<Catalogue> catalogue;
+
+    /// Errors: those of open_disk_medium() and read_catalogue().
+    static Result<ReadStore> open(const std::string& path);
+};
+
+/// A store that is written to.
+struct WrittenStore
+{
+    std::unique_ptr<Medium> medium;
+    std::unique_ptr<Store> store; ///< goes first
+
+    /// Errors: those of open_disk_medium() and Store::open().
+    static Result<WrittenStore> open(const std::string& path, const StoreRules& rules);
+};
+
+} // namespace dicot::app
