@@ -185,13 +185,13 @@ cross() {
     count_lines sh tests/system/cross_test.sh .build/release/platform/app/dicot "$@" || return
 }
 
-# The cameras of tests/support before the kernel's own driver, then dicot's drivers, then a snapshot. A machine that does not boot is a
-# failure.
+# The cameras of tests/support before the kernel's own driver, then dicot's drivers, then a snapshot; the store on disks that lose
+# their power. A machine that does not boot is a failure.
 vm() {
     # Each machine keeps one processor busy; the longest first.
-    printf '%s\n' snap uvc v4l2 selfcheck | xargs -P "$(nproc)" -I '{}' \
+    printf '%s\n' snap uvc v4l2 store selfcheck | xargs -P "$(nproc)" -I '{}' \
         sh -c "sh tests/vm/{}.sh >$logs/vm-{}.log 2>&1; echo \$? >$logs/vm-{}.code"
-    for machine in selfcheck v4l2 uvc snap; do
+    for machine in selfcheck v4l2 uvc snap store; do
         count_lines finished "$machine" || return
         missed=$(grep '^NOT RUN' "$logs/vm-$machine.log")
         [ -z "$missed" ] || not_run="${not_run}vm: $missed

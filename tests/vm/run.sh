@@ -1,9 +1,10 @@
 #!/bin/sh
 # Boots the virtual machine with an image of image.sh and judges what it reports.
 #
-#   sh tests/vm/run.sh IMAGE --timeout SECONDS [--out FOLDER] [--log FILE]
+#   sh tests/vm/run.sh IMAGE --timeout SECONDS [--out FOLDER] [--log FILE] [--disk FILE] [--logged-disk FILE] ...
 #
-# FOLDER gets what the script left in /out, FILE the serial console (by default IMAGE.log). Prints a line "ok" or "FAILED"
+# FOLDER gets what the script left in /out, FILE the serial console (by default IMAGE.log). The disks are /dev/vdb,
+# /dev/vdc and so on in their order; what a logged one was told is written to its FILE.blocks (store/block_log.py). Prints a line "ok" or "FAILED"
 # for each test, and behind a failed one what it said last. Exit code 1 when the machine did not come to its end in time
 # (the end of the console is then printed), a test failed, an expected one did not report, or the kernel complained.
 #
@@ -13,12 +14,25 @@ set -u
 
 image=${1:?run.sh: name the image}
 shift
-timeout_s='' out='' log=$image.log
+timeout_s='' out='' log=$image.log disks='' count=0
 while [ $# -gt 1 ]; do
     case $1 in
         --timeout) timeout_s=$2 ;;
         --out) out=$2 ;;
         --log) log=$2 ;;
+        --disk)
+            count=$((count + 1))
+            disks="$disks -blockdev driver=file,filename=$2,node-name=disk$count
+                -device virtio-blk-pci,drive=disk$count,write-cache=on"
+            ;;
+        --logged-disk)
+            count=$((count + 1))
+            : >"$2.blocks"
+            disks="$disks -blockdev driver=file,filename=$2,node-name=file$count
+                -blockdev driver=file,filename=$2.blocks,node-name=log$count
+                -blockdev driver=blklogwrites,file=file$count,log=log$count,log-sector-size=512,log-super-update-interval=1,node-name=disk$count
+                -device virtio-blk-pci,drive=disk$count,write-cache=on"
+            ;;
         *) echo "run.sh: '$1' is no option; see its first lines" >&2; exit 64 ;;
     esac
     shift 2
@@ -42,10 +56,11 @@ complain() {
 disk=$(mktemp)
 trap 'rm -f "$disk"' EXIT
 truncate -s 256M "$disk"
+# shellcheck disable=SC2086 # $disks is a list of words; names with blanks or commas are not for it
 timeout --foreground --kill-after=5 "$timeout_s" qemu-system-aarch64 -M virt -cpu cortex-a72 -accel tcg -m 512 \
     -nodefaults -display none -nic none -no-reboot -serial stdio \
     -kernel "$tree/vmlinuz" -initrd "$image" -append "console=ttyAMA0 loglevel=3 panic=-1 oops=panic log_buf_len=2M" \
-    -drive "if=none,id=out,file=$disk,format=raw" -device virtio-blk-pci,drive=out \
+    -drive "if=none,id=out,file=$disk,format=raw" -device virtio-blk-pci,drive=out $disks \
     </dev/null 2>&1 | tr -d '\r' >"$log"
 
 sed -n 's/^dicot-vm: ok \(.*\)/ok      vm \1/p' "$log"
