@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "store/shown.h"
 #include "store/slot_words.h"
+#include "store/store_outcome.h"
 #include "store/store_words.h"
 
 #include <nlohmann/json.hpp>
@@ -115,63 +116,67 @@ nlohmann::json summary_json(const Summary& summary)
             {"days_left", days ? nlohmann::json(*days) : nlohmann::json()}};
 }
 
-/// A table for each board; a store of years is printed as it is read.
-Status list_as_text(const FoundStores& found, const SlotQuery& query)
+/// A table; a store of years is printed as it is read.
+Status list_as_text(const DeviceFolder& device, const StoreRules& rules, const SlotQuery& query, bool first)
 {
-    const StoreRules rules = rules_of(found.output);
-    bool first = true;
-    for (const DeviceFolder& device : found.devices) {
-        ReadStore store = TRY(ReadStore::open(device.path));
-        const Summary summary = TRY(summary_of(store, rules, device.path));
-        std::printf("%s%s\n%-15s  %s\n", first ? "" : "\n", shown(device.path).c_str(), "device",
-                    slot_heading().c_str());
-        first = false;
-        const std::string name = shown(device.device);
-        std::int64_t rows = 0;
-        TRY(store.catalogue->for_each(query, [&](const SlotRow& row) {
-            ++rows;
-            std::printf("%-15s  %s\n", name.c_str(), slot_line(row).c_str());
-            return std::ferror(stdout) == 0;
-        }));
-        if (rows < summary.totals.slots)
-            std::printf("%s shown; in all ", counted(rows, "slot").c_str());
-        print(summary);
-    }
-    if (found.devices.empty())
-        std::printf("%s: there is no snapshot yet: dicot snap makes one\n", shown(found.root).c_str());
+    ReadStore store = TRY(ReadStore::open(device.path));
+    const Summary summary = TRY(summary_of(store, rules, device.path));
+    std::printf("%s%s\n%-15s  %s\n", first ? "" : "\n", shown(device.path).c_str(), "device", slot_heading().c_str());
+    const std::string name = shown(device.device);
+    std::int64_t rows = 0;
+    TRY(store.catalogue->for_each(query, [&](const SlotRow& row) {
+        ++rows;
+        std::printf("%-15s  %s\n", name.c_str(), slot_line(row).c_str());
+        return std::ferror(stdout) == 0;
+    }));
+    if (rows < summary.totals.slots)
+        std::printf("%s shown; in all ", counted(rows, "slot").c_str());
+    print(summary);
     return {};
 }
 
-/// One document, one line a slot.
-Status list_as_json(const FoundStores& found, const SlotQuery& query)
+/// What stands in a board's object behind its path, one line a slot.
+Status list_as_json(const DeviceFolder& device, const StoreRules& rules, const SlotQuery& query)
 {
-    const StoreRules rules = rules_of(found.output);
-    std::printf("{\"root\": %s, \"stores\": [", json_text(found.root).c_str());
-    const char* before_store = "\n";
-    for (const DeviceFolder& device : found.devices) {
-        ReadStore store = TRY(ReadStore::open(device.path));
-        const Summary summary = TRY(summary_of(store, rules, device.path));
-        std::printf("%s{\"device\": %s, \"path\": %s, \"summary\": %s, \"slots\": [", before_store,
-                    json_text(device.device).c_str(), json_text(device.path).c_str(),
-                    json_text(summary_json(summary), -1).c_str());
-        before_store = ",\n";
-        const char* before_row = "\n";
-        TRY(store.catalogue->for_each(query, [&](const SlotRow& row) {
-            std::printf("%s%s", before_row, json_text(slot_json(row), -1).c_str());
-            before_row = ",\n";
-            return std::ferror(stdout) == 0;
-        }));
-        std::printf("]}");
-    }
-    std::printf("]}\n");
-    return {};
+    ReadStore store = TRY(ReadStore::open(device.path));
+    const Summary summary = TRY(summary_of(store, rules, device.path));
+    std::printf(", \"summary\": %s, \"slots\": [", json_text(summary_json(summary), -1).c_str());
+    const char* before_row = "\n";
+    const Status listed = store.catalogue->for_each(query, [&](const SlotRow& row) {
+        std::printf("%s%s", before_row, json_text(slot_json(row), -1).c_str());
+        before_row = ",\n";
+        return std::ferror(stdout) == 0;
+    });
+    std::printf("]");
+    return listed;
 }
 
 Status run(const Words& words)
 {
     const SlotQuery query = TRY(query_of(words));
     const FoundStores found = TRY(words.store.find());
-    return words.json ? list_as_json(found, query) : list_as_text(found, query);
+    const StoreRules rules = rules_of(found.output);
+    StoreOutcome outcome(found);
+    if (words.json)
+        std::printf("{\"root\": %s, \"stores\": [", json_text(found.root).c_str());
+    for (const DeviceFolder& device : found.devices) {
+        const bool first = &device == &found.devices.front();
+        if (words.json)
+            std::printf("%s{\"device\": %s, \"path\": %s", first ? "\n" : ",\n", json_text(device.device).c_str(),
+                        json_text(device.path).c_str());
+        const Status listed = in_store(device.path, words.json ? list_as_json(device, rules, query)
+                                                               : list_as_text(device, rules, query, first));
+        if (words.json && !listed.ok())
+            std::printf(", \"error\": %s", json_text(listed.message()).c_str());
+        if (words.json)
+            std::printf("}");
+        outcome.add(listed);
+    }
+    if (words.json)
+        std::printf("]}\n");
+    else if (found.devices.empty() && found.unread.empty())
+        std::printf("%s: there is no snapshot yet: dicot snap makes one\n", shown(found.root).c_str());
+    return outcome.worst();
 }
 
 } // namespace
@@ -185,7 +190,7 @@ void add_list(CLI::App& program, Command& chosen)
     command->add_option("--until", words->until, "to the end of this day or time, UTC")->type_name("TIME");
     command->add_flag("--missed", words->missed, "the missed ones alone");
     command->add_option("--last", words->last, "the newest ones alone, so many of each board")
-        ->check(CLI::PositiveNumber);
+        ->transform(slot_number());
     words->store.add_to(*command);
     command->add_flag("--json", words->json, "report as JSON, one line a slot");
     command->callback([words, &chosen] { chosen = [words] { return run(*words); }; });

@@ -1,5 +1,6 @@
 #include "commands.h"
 
+#include <csignal>
 #include <cstdio>
 #include <string>
 
@@ -26,6 +27,8 @@ int misused(const CLI::App& program, const CLI::ParseError& error)
 int main(int argc, char** argv)
 {
     using namespace dicot;
+    // A limit of the file size (ulimit -f) is an error of writing, no end.
+    (void)std::signal(SIGXFSZ, SIG_IGN);
     CLI::App program{"dicot: two webcams beside the plants, and a compressed 3D cloud of them."};
     program.set_version_flag("--version", "dicot " DICOT_VERSION);
     program.footer(kFooter);

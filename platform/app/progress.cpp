@@ -18,9 +18,9 @@ Progress::Progress(const char* what) noexcept
 {
 }
 
-Progress::~Progress()
+void Progress::wipe() noexcept
 {
-    if (drawn_)
+    if (drawn_.exchange(false))
         std::fprintf(stderr, "\r\033[K");
 }
 

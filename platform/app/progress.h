@@ -13,8 +13,10 @@ public:
     explicit Progress(const char* what) noexcept;
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
-    /// Wipes the line.
-    ~Progress();
+    ~Progress() { wipe(); }
+
+    /// Wipes the line, for something else to be printed; the next done() draws it again.
+    void wipe() noexcept;
 
     /// May be called from any thread; draws at most ten times a second.
     void done(int part, int all) noexcept;

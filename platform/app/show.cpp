@@ -3,6 +3,7 @@
 #include "store/record_words.h"
 #include "store/shown.h"
 #include "store/slot_words.h"
+#include "store/store_outcome.h"
 #include "store/store_words.h"
 
 #include "dicot/store/look.h"
@@ -46,16 +47,19 @@ struct FoundSlot
     SlotRow row;
 };
 
-Result<FoundSlot> find_slot(const FoundStores& found, std::int64_t sequence)
+Result<FoundSlot> find_slot(const FoundStores& found, std::int64_t sequence, StoreOutcome& outcome)
 {
     std::vector<FoundSlot> slots;
     std::string near;
     for (const DeviceFolder& device : found.devices) {
-        const ReadStore store = TRY(ReadStore::open(device.path));
-        if (const std::optional<SlotRow> row = TRY(store.catalogue->find(sequence)))
-            slots.push_back({device, *row});
-        else if (const std::string names = TRY(neighbours(*store.catalogue, sequence)); !names.empty())
-            near += (near.empty() ? "" : "; ") + shown(device.device) + " has " + names;
+        outcome.add(in_store(device.path, [&]() -> Status {
+            const ReadStore store = TRY(ReadStore::open(device.path));
+            if (const std::optional<SlotRow> row = TRY(store.catalogue->find(sequence)))
+                slots.push_back({device, *row});
+            else if (const std::string names = TRY(neighbours(*store.catalogue, sequence)); !names.empty())
+                near += (near.empty() ? "" : "; ") + shown(device.device) + " has " + names;
+            return {};
+        }()));
     }
     if (slots.size() == 1)
         return slots.front();
@@ -64,7 +68,10 @@ Result<FoundSlot> find_slot(const FoundStores& found, std::int64_t sequence)
                        shown(found.root).c_str(), slots.size(), static_cast<long long>(sequence),
                        shown(slots.front().device.device).c_str());
     return failure(Fault::kNoInput, "%s: there is no slot %lld: %s", shown(found.root).c_str(),
-                   static_cast<long long>(sequence), near.empty() ? "there is none at all" : near.c_str());
+                   static_cast<long long>(sequence),
+                   !near.empty()          ? near.c_str()
+                   : outcome.worst().ok() ? "there is none at all"
+                                          : "none where it could be looked for");
 }
 
 const char* way_out(const SlotRow& row)
@@ -124,13 +131,16 @@ Status show(const FoundSlot& slot, bool as_json)
     }
     if (flaw.ok())
         return {};
-    return failure(Fault::kBadData, "%s: %s", shown(slot.device.path).c_str(), shown(flaw.message()).c_str());
+    return failure(Fault::kBadData, "%s", shown(flaw.message()).c_str());
 }
 
 Status run(const Words& words)
 {
     const FoundStores found = TRY(words.store.find());
-    return show(TRY(find_slot(found, words.sequence)), words.json);
+    StoreOutcome outcome(found);
+    const Result<FoundSlot> slot = find_slot(found, words.sequence, outcome);
+    outcome.add(slot.ok() ? in_store(slot.value().device.path, show(slot.value(), words.json)) : slot.status());
+    return outcome.worst();
 }
 
 } // namespace
@@ -140,7 +150,7 @@ void add_show(CLI::App& program, Command& chosen)
     CLI::App* command =
         program.add_subcommand("show", "One slot: its record, its files and whether these are as they were written");
     auto words = std::make_shared<Words>();
-    command->add_option("NUMBER", words->sequence, "as dicot list has it")->required()->check(CLI::PositiveNumber);
+    command->add_option("NUMBER", words->sequence, "as dicot list has it")->required()->transform(slot_number());
     words->store.add_to(*command);
     command->add_flag("--json", words->json, "the record itself, and what the catalogue has");
     command->callback([words, &chosen] { chosen = [words] { return run(*words); }; });

@@ -7,6 +7,8 @@
 #include "snapshot.h"
 #include "stop_request.h"
 #include "store/shown.h"
+#include "store/start_words.h"
+#include "store/store_outcome.h"
 #include "store/store_words.h"
 
 #include "dicot/os/clock.h"
@@ -35,7 +37,7 @@ struct Words
 Status make_device_folder(const std::string& root, const std::string& path)
 {
     std::error_code ignored;
-    if (std::filesystem::exists(root + "/" + Store::kCatalogueName, ignored))
+    if (std::filesystem::is_directory(root, ignored) && TRY(is_device_folder(root)))
         return failure(Fault::kUsage, "%s: this is the folder of one board: name the one around it",
                        shown(root).c_str());
     TRY(make_folder(root));
@@ -54,18 +56,6 @@ Result<WrittenStore> open_patiently(const std::string& path, const StoreRules& r
             return opened;
         std::this_thread::sleep_for(kPause);
     }
-}
-
-void tell(const StartReport& report, const std::string& path)
-{
-    const auto line = [&path](int count, const char* what) {
-        if (count > 0)
-            std::fprintf(stderr, "dicot: %s: %s %s\n", shown(path).c_str(), counted(count, "snapshot").c_str(), what);
-    };
-    line(report.finished, "whole when it was interrupted: now in place");
-    line(report.interrupted, "interrupted: recorded as missed");
-    line(report.left_over, "interrupted, and not to be ended: dicot verify");
-    line(report.rows_added, "that the catalogue did not know: added");
 }
 
 void print(const nlohmann::json& record, const std::string& folder)
@@ -123,9 +113,11 @@ Status run(const Words& words)
     const std::string root = words.root.empty() ? config.output.folder : words.root;
     const std::string path = root + "/" + how.device;
     TRY(make_device_folder(root, path));
-    const WrittenStore opened = TRY(open_patiently(path, rules_of(config.output)));
-    Store& store = *opened.store;
-    tell(store.start_report(), path);
+    const Result<WrittenStore> opened = open_patiently(path, rules_of(config.output));
+    if (!opened.ok())
+        return in_store(path, opened.status());
+    Store& store = *opened.value().store;
+    tell_start(store, path);
     const ClockReading clock = read_clock(TRY(newest_time(store.catalogue())));
     SnapshotTold told = TRY(take_snapshot(config, how, bench, clock, store));
     report(words, told, path);

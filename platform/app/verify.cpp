@@ -2,7 +2,10 @@
 #include "commands.h"
 #include "progress.h"
 #include "store/shown.h"
+#include "store/slot_record.h"
 #include "store/slot_words.h"
+#include "store/start_words.h"
+#include "store/store_outcome.h"
 #include "store/store_words.h"
 
 #include "dicot/medium/disk_medium.h"
@@ -57,45 +60,55 @@ bool is_damage(const Finding& finding, bool repair) noexcept
 struct Verified
 {
     VerifyReport report;
+    std::optional<StartReport> start; ///< of a repair
     nlohmann::json findings = nlohmann::json::array();
     int damage = 0;
     int dealt_with = 0;
 };
 
-Result<Verified> verify(const DeviceFolder& device, const StoreRules& rules, bool repair)
+void print(const DeviceFolder& device, const Finding& finding, bool repair)
 {
-    Verified verified;
+    std::printf("%s/%s: %s: %s%s\n", shown(device.path).c_str(), shown(finding.path).c_str(), name_of(finding.kind),
+                shown(finding.sentence).c_str(), is_dealt_with(finding, repair) ? " (dealt with)" : "");
+    std::fflush(stdout);
+}
+
+/// What was found until a failure stays in `verified`.
+Status verify(const Words& words, const DeviceFolder& device, const StoreRules& rules, Verified& verified)
+{
+    Progress bar("verifying");
     const auto found = [&](const Finding& finding) {
-        verified.dealt_with += is_dealt_with(finding, repair) ? 1 : 0;
-        verified.damage += is_damage(finding, repair) ? 1 : 0;
+        verified.dealt_with += is_dealt_with(finding, words.repair) ? 1 : 0;
+        verified.damage += is_damage(finding, words.repair) ? 1 : 0;
+        if (!words.json) { // printed at once: the card may fail before the end
+            bar.wipe();
+            print(device, finding, words.repair);
+            return;
+        }
         verified.findings.push_back(
             {{"kind", name_of(finding.kind)},
              {"sequence", finding.sequence > 0 ? nlohmann::json(finding.sequence) : nlohmann::json()},
              {"path", finding.path},
              {"sentence", finding.sentence},
-             {"dealt_with", is_dealt_with(finding, repair)}});
+             {"dealt_with", is_dealt_with(finding, words.repair)}});
     };
-    Progress bar("verifying");
     const auto progress = [&bar](int done, int all) { bar.done(done, all); };
-    if (repair) {
+    if (words.repair) {
         const WrittenStore store = TRY(WrittenStore::open(device.path, rules));
+        verified.start = store.store->start_report();
+        tell_start(*store.store, device.path);
         verified.report = TRY(store.store->verify(true, found, progress));
     } else {
         const std::unique_ptr<Medium> medium = TRY(open_disk_medium(device.path));
         verified.report = TRY(verify_store(*medium, device.path + "/" + Store::kCatalogueName, found, progress));
     }
-    return verified;
+    return {};
 }
 
-void print(const DeviceFolder& device, const Verified& verified)
+void print_sum(const DeviceFolder& device, const Verified& verified)
 {
-    const std::string path = shown(device.path);
-    for (const nlohmann::json& finding : verified.findings)
-        std::printf("%s/%s: %s: %s%s\n", path.c_str(), shown(finding["path"].get<std::string>()).c_str(),
-                    finding["kind"].get<std::string>().c_str(), shown(finding["sentence"].get<std::string>()).c_str(),
-                    finding["dealt_with"].get<bool>() ? " (dealt with)" : "");
     const VerifyReport& report = verified.report;
-    std::printf("%s: %s and %s read; ", path.c_str(), counted(report.folders, "folder").c_str(),
+    std::printf("%s: %s and %s read; ", shown(device.path).c_str(), counted(report.folders, "folder").c_str(),
                 shown_bytes(static_cast<double>(report.bytes)).c_str());
     if (report.findings == 0)
         std::printf("everything is as it was written");
@@ -106,39 +119,51 @@ void print(const DeviceFolder& device, const Verified& verified)
     std::printf("\n");
 }
 
+nlohmann::json json_of(const DeviceFolder& device, const Verified& verified, const Status& outcome)
+{
+    nlohmann::json told = {{"device", device.device},
+                           {"path", device.path},
+                           {"folders", verified.report.folders},
+                           {"bytes", verified.report.bytes},
+                           {"dealt_with", verified.dealt_with},
+                           {"damaged", verified.damage},
+                           {"in_quarantine", verified.report.in_quarantine},
+                           {"findings", verified.findings}};
+    if (verified.start)
+        told["start"] = start_record(*verified.start);
+    if (!outcome.ok())
+        told["error"] = outcome.message();
+    return told;
+}
+
 Status run(const Words& words)
 {
     const FoundStores found = TRY(words.store.find());
     const StoreRules rules = rules_of(found.output);
+    StoreOutcome outcome(found);
     nlohmann::json stores = nlohmann::json::array();
     int damage = 0;
     for (const DeviceFolder& device : found.devices) {
-        const Verified verified = TRY(verify(device, rules, words.repair));
+        Verified verified;
+        const Status done = in_store(device.path, verify(words, device, rules, verified));
         damage += verified.damage;
-        if (!words.json) {
-            print(device, verified);
-            continue;
-        }
-        stores.push_back({{"device", device.device},
-                          {"path", device.path},
-                          {"folders", verified.report.folders},
-                          {"bytes", verified.report.bytes},
-                          {"dealt_with", verified.dealt_with},
-                          {"damaged", verified.damage},
-                          {"in_quarantine", verified.report.in_quarantine},
-                          {"findings", verified.findings}});
+        if (words.json)
+            stores.push_back(json_of(device, verified, done));
+        else if (done.ok())
+            print_sum(device, verified);
+        outcome.add(done);
     }
     if (words.json)
         std::printf("%s\n", json_text({{"root", found.root}, {"stores", stores}}).c_str());
-    else if (found.devices.empty())
+    else if (found.devices.empty() && found.unread.empty())
         std::printf("%s: there is no snapshot yet, so none is damaged\n", shown(found.root).c_str());
-    if (damage == 0)
-        return {};
-    return failure(Fault::kBadData, "%s: %s not as written: %s", shown(found.root).c_str(),
-                   damage == 1 ? "1 thing is" : (std::to_string(damage) + " things are").c_str(),
-                   words.repair
-                       ? "what could not be dealt with is named above"
-                       : "dicot verify --repair moves damaged folders to quarantine and makes the catalogue again");
+    if (damage > 0)
+        outcome.add(failure(
+            Fault::kBadData, "%s: %s not as written: %s", shown(found.root).c_str(),
+            damage == 1 ? "1 thing is" : (std::to_string(damage) + " things are").c_str(),
+            words.repair ? "what could not be dealt with is named above"
+                         : "dicot verify --repair moves damaged folders to quarantine and makes the catalogue again"));
+    return outcome.worst();
 }
 
 } // namespace

@@ -27,6 +27,7 @@ constexpr double kMiB = 1 << 20;
 constexpr double kMostGrowthMiB = 0.5; ///< of the whole process, from the first block to the last
 constexpr double kMostHeapMiB = 0.5;   ///< of SQLite
 constexpr double kMostListMs = 100;
+constexpr double kMostSlower = 3; ///< processor time of a snapshot, the last block against the first
 constexpr std::int64_t kFirstUs = 1'780'272'000'000'000; // 2026-06-01
 constexpr std::int64_t kStepUs = 600'000'000;
 
@@ -153,6 +154,9 @@ Result<bool> run(const Words& words)
     const double growth = blocks.back().resident_mib - blocks.front().resident_mib;
     std::printf("memory grew by %.2f MiB (%.2f are allowed)\n", growth, kMostGrowthMiB);
     flat = growth <= kMostGrowthMiB && blocks.back().heap_mib <= kMostHeapMiB;
+    const double slower = blocks.back().cpu_median_ms / std::max(blocks.front().cpu_median_ms, 0.01);
+    std::printf("processor time is %.2f times that of the first (%.0f are allowed)\n", slower, kMostSlower);
+    flat = flat && slower <= kMostSlower;
     if (!words.program.empty()) {
         const double list_ms = TRY(time_list(words));
         std::printf("dicot list: %.1f ms (%.0f are allowed)\n", list_ms, kMostListMs);

@@ -2,28 +2,62 @@
 
 #include "dicot/base/printable.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
 namespace dicot::app {
 
+namespace {
+
+constexpr std::size_t kMost = 255;
+
+bool is_continued(char c)
+{
+    return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
+}
+
+/// How many bytes of the text are shown.
+std::size_t whole_characters(std::string_view text)
+{
+    std::size_t size = std::min(text.size(), kMost);
+    for (int back = 0; back < 3 && size < text.size() && is_continued(text[size]); ++back)
+        --size;
+    return size;
+}
+
+/// As many bytes as its first one promises.
+std::size_t bytes_of_character(char lead)
+{
+    const auto byte = static_cast<unsigned char>(lead);
+    return byte < 0xC0 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
+}
+
+} // namespace
+
 std::string shown(std::string_view text)
 {
-    constexpr std::size_t kMost = 200;
     constexpr const char* kHex = "0123456789ABCDEF";
-    if (text.size() <= kMost && is_printable(text))
-        return std::string{text};
+    const std::string_view part = text.substr(0, whole_characters(text));
+    const char* const end = part.size() < text.size() ? "..." : "";
+    if (is_printable(part))
+        return std::string{part} + end;
     std::string escaped;
-    for (const char c : text.substr(0, kMost)) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (c == '\\')
+    for (std::size_t i = 0; i < part.size();) {
+        const std::string_view character = part.substr(i, bytes_of_character(part[i]));
+        const auto byte = static_cast<unsigned char>(part[i]);
+        if (part[i] == '\\') {
             escaped += "\\\\";
-        else if (c >= ' ' && c <= '~')
-            escaped += c;
-        else
+        } else if (is_printable(character)) {
+            escaped += character;
+            i += character.size();
+            continue;
+        } else {
             escaped += {'\\', 'x', kHex[byte >> 4U], kHex[byte & 15U]};
+        }
+        ++i;
     }
-    return text.size() > kMost ? escaped + "..." : escaped;
+    return escaped + end;
 }
 
 std::string shown_bytes(double bytes)

@@ -7,8 +7,8 @@
 
 namespace dicot::app {
 
-/// What is printable (dicot/base/printable.h) and has 200 bytes at most as it is; of anything else the beginning, with
-/// \x1B for every byte that is no printable ASCII.
+/// The first 255 bytes, as long as a reason may be, cut between characters: what is printable (dicot/base/printable.h)
+/// as it is; of anything else the printable characters, "\\" for a backslash, and \x1B for every other byte.
 std::string shown(std::string_view text);
 
 /// "512 B", "4.1 KiB", "12.3 MiB", "1.5 GiB".

@@ -4,8 +4,12 @@
 
 #include "dicot/base/utc_time.h"
 #include "dicot/medium/disk_medium.h"
+#include "dicot/record/record.h"
+
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <utility>
 
@@ -41,32 +45,58 @@ Status cannot_read(const std::string& root, const std::error_code& error)
                    shown(root).c_str(), error ? error.message().c_str() : "this is no folder");
 }
 
-Result<std::vector<DeviceFolder>> devices_in(const std::string& root)
+Status find_devices(FoundStores& found)
 {
-    std::vector<DeviceFolder> devices;
     std::error_code error;
-    fs::directory_iterator entry(root, error);
-    for (; !error && entry != fs::directory_iterator{}; entry.increment(error))
-        if (is_folder(*entry) && is_device_folder(entry->path().string()))
-            devices.push_back({entry->path().filename().string(), entry->path().string()});
+    fs::directory_iterator entry(found.root, error);
+    for (; !error && entry != fs::directory_iterator{}; entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        if (!is_folder(*entry) || name == "lost+found") // the file system's own, which root alone may read
+            continue;
+        const Result<bool> is_device = is_device_folder(entry->path().string());
+        if (!is_device.ok())
+            found.unread.push_back({name, is_device.status()});
+        else if (is_device.value())
+            found.devices.push_back({name, entry->path().string()});
+    }
     if (error)
-        return cannot_read(root, error);
-    std::ranges::sort(devices, {}, &DeviceFolder::device);
-    return devices;
+        return cannot_read(found.root, error);
+    std::ranges::sort(found.devices, {}, &DeviceFolder::device);
+    std::ranges::sort(found.unread, {}, &UnreadFolder::name);
+    return {};
 }
 
 } // namespace
 
-bool is_device_folder(const std::string& path)
+Result<bool> is_device_folder(const std::string& path)
 {
+    int rooms = 0; // together: a board may be called "incoming"
     std::error_code error;
     for (fs::directory_iterator entry(path, error); !error && entry != fs::directory_iterator{};
          entry.increment(error)) {
         const std::string name = entry->path().filename().string();
         if (name == Store::kCatalogueName || (is_day(name) && is_folder(*entry)))
             return true;
+        if ((name == "incoming" || name == "leaving") && is_folder(*entry) && ++rooms == 2)
+            return true;
     }
+    if (error)
+        return failure(Fault::kNoInput, "%s: it cannot be read (%s), so nothing of it is told", shown(path).c_str(),
+                       error.message().c_str());
     return false;
+}
+
+CLI::Validator slot_number()
+{
+    return {[](std::string& text) -> std::string {
+                std::int64_t number = 0;
+                const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+                if (error != std::errc{} || end != text.data() + text.size() || number < 1 || number > kMaxSequence)
+                    return "give a number from 1 to 999,999,999";
+                text = std::to_string(number); // what begins with 0 would be read as octal
+                return {};
+            },
+            "1 to 999999999", "slot number"};
 }
 
 void StoreWords::add_to(CLI::App& command)
@@ -87,14 +117,15 @@ Result<FoundStores> StoreWords::find() const
     std::error_code error;
     if (!fs::is_directory(found.root, error))
         return cannot_read(found.root, error);
-    if (is_device_folder(found.root))
+    if (TRY(is_device_folder(found.root)))
         found.devices.push_back({last_part(found.root), found.root});
     else
-        found.devices = TRY(devices_in(found.root));
+        TRY(find_devices(found));
     if (device.empty())
         return found;
     std::erase_if(found.devices, [this](const DeviceFolder& one) { return one.device != device; });
-    if (found.devices.empty())
+    std::erase_if(found.unread, [this](const UnreadFolder& one) { return one.name != device; });
+    if (found.devices.empty() && found.unread.empty())
         return failure(Fault::kNoInput, "%s: there are no snapshots of a board called %s: dicot list names the boards",
                        shown(found.root).c_str(), shown(device).c_str());
     return found;

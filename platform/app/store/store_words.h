@@ -17,11 +17,19 @@ struct DeviceFolder
     std::string path;
 };
 
+/// A folder of which nobody knows whether it is a board's.
+struct UnreadFolder
+{
+    std::string name;
+    Status why; ///< Fault::kNoInput
+};
+
 struct FoundStores
 {
     OutputConfig output;
     std::string root; ///< where was looked
     std::vector<DeviceFolder> devices;
+    std::vector<UnreadFolder> unread;
 };
 
 struct StoreWords
@@ -36,9 +44,12 @@ struct StoreWords
     Result<FoundStores> find() const;
 };
 
-/// Whether snapshots of one board lie in this folder: it has a catalogue, or folders named by days. Links are not
-/// followed.
-bool is_device_folder(const std::string& path);
+/// Whether snapshots of one board lie in this folder: it has a catalogue, folders named by days, or what a store makes
+/// for its work. Links are not followed. Fault::kNoInput: it cannot be read.
+Result<bool> is_device_folder(const std::string& path);
+
+/// Takes "17" and "000017" for a number of 1 to kMaxSequence, for a slot or for so many of them.
+CLI::Validator slot_number();
 
 StoreRules rules_of(const OutputConfig& output);
 

@@ -21,6 +21,23 @@ Status card_failure(Errno why, const char* path, const char* doing)
                        "%s: the card is read-only, as a card becomes when it dies; check it, or replace it", shown);
     case EIO:
         return failure(Fault::kIoError, "%s: %s failed in the card itself; replace it soon", shown, doing);
+    case EACCES:
+    case EPERM:
+        return failure(Fault::kIoError,
+                       "%s: %s: no permission: it belongs to another user; start dicot as that one, or give it to this "
+                       "one (chown)",
+                       shown, doing);
+    case EMFILE:
+    case ENFILE:
+        return failure(Fault::kIoError, "%s: %s: too many files are open; allow more (ulimit -n), or close some", shown,
+                       doing);
+    case ENOTDIR:
+        return failure(Fault::kIoError, "%s: %s: a file stands where a folder should; take it away", shown, doing);
+    case EFBIG:
+        return failure(
+            Fault::kIoError,
+            "%s: %s: larger than a file may become here; allow more (ulimit -f), or take another file system", shown,
+            doing);
     default:
         return failure(Fault::kIoError, "%s: %s failed (%s)", shown, doing, strerrordesc_np(why.number()));
     }
