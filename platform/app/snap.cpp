@@ -119,9 +119,11 @@ Status run(const Words& words)
     Store& store = *opened.value().store;
     tell_start(store, path);
     const ClockReading clock = read_clock(TRY(newest_time(store.catalogue())));
-    SnapshotTold told = TRY(take_snapshot(config, how, bench, clock, store));
-    report(words, told, path);
-    return told.status;
+    Result<SnapshotTold> taken = take_snapshot(config, how, bench, clock, store);
+    if (!taken.ok())
+        return in_store(path, taken.status());
+    report(words, taken.value(), path);
+    return taken.value().status;
 }
 
 } // namespace

@@ -78,7 +78,14 @@ TEST_F(StoreList, SlotsAreChosenByTimeByMissAndByNumberOfTheNewest)
         const ToolRun run = ask("list --since " + std::string(wrong), root);
         EXPECT_EQ(run.exit_code, std::string(wrong) == "''" ? 0 : 64) << wrong << run.output;
     }
-    EXPECT_EQ(ask("list --last 0", root).exit_code, 64);
+    for (const char* wrong :
+         {"list --last 0", "show 0", "show abc", "show 1x", "show 9999999999999999999", "show 1000000000"}) {
+        const ToolRun run = ask(wrong, root);
+        EXPECT_EQ(run.exit_code, 64) << wrong << run.output;
+        EXPECT_THAT(run.output, HasSubstr("give a number from 1 to 999,999,999")) << wrong;
+        EXPECT_LT(run.output.size(), 120U) << run.output;
+    }
+    EXPECT_EQ(report("show 000003", root)["slot"]["sequence"], 3);
 }
 
 TEST_F(StoreList, SeveralBoardsOneBoardAndABoardsOwnFolder)
@@ -145,8 +152,7 @@ TEST_F(StoreList, ShowNamesTheNearestOfANumberThatIsNotThere)
     const ToolRun beyond = ask("show 9", copy());
     EXPECT_EQ(beyond.exit_code, 66);
     EXPECT_THAT(beyond.output, HasSubstr("there is no slot 9: bench has 3"));
-    EXPECT_EQ(ask("show 0", copy()).exit_code, 64);
-    EXPECT_EQ(ask("show x", copy()).exit_code, 64);
+    EXPECT_EQ(ask("show 00000010", copy()).exit_code, 66); // ten, not eight
 }
 
 TEST_F(StoreList, ShowNamesADamagedFile)

@@ -2,6 +2,7 @@
 #include "store/record_words.h"
 #include "store/shown.h"
 #include "store/slot_words.h"
+#include "store/store_outcome.h"
 
 #include "dicot/base/utc_time.h"
 
@@ -41,7 +42,40 @@ TEST(StoreWords, WhatATerminalWouldObeyIsEscaped)
                     "abc"),
               "\\xE2\\x80\\xAE"
               "abc"); // turns the direction of writing
-    EXPECT_EQ(shown(std::string(300, 'x')), std::string(200, 'x') + "...");
+    EXPECT_EQ(shown("ä\x1b\\\xC3"), "ä\\x1B\\\\\\xC3");
+}
+
+TEST(StoreWords, AReasonIsShownWholeAndLongerTextIsCutBetweenCharacters)
+{
+    const std::string reason = std::string(253, 'x') + "ä"; // 255 bytes
+    EXPECT_EQ(shown(reason), reason);
+    EXPECT_EQ(shown(std::string(300, 'x')), std::string(255, 'x') + "...");
+    EXPECT_EQ(shown(std::string(254, 'x') + "äöü"), std::string(254, 'x') + "...");
+    EXPECT_EQ(shown("\n" + std::string(253, 'x') + "ä"), "\\x0A" + std::string(253, 'x') + "...");
+}
+
+TEST(StoreWords, OfSeveralFailuresTheWorstIsTheOutcomeAndAPassingOneIsTheLeast)
+{
+    FoundStores found;
+    EXPECT_TRUE(StoreOutcome(found).worst().ok());
+    found.unread.push_back({"b", failure(Fault::kNoInput, "b: it cannot be read")});
+    StoreOutcome outcome(found);
+    EXPECT_EQ(outcome.worst().fault(), Fault::kNoInput);
+    outcome.add({});
+    outcome.add(failure(Fault::kTryAgain, "locked"));
+    EXPECT_EQ(outcome.worst().fault(), Fault::kNoInput);
+    outcome.add(failure(Fault::kIoError, "first"));
+    outcome.add(failure(Fault::kIoError, "second"));
+    EXPECT_STREQ(outcome.worst().message(), "first");
+}
+
+TEST(StoreWords, AFailureOfAStoreNamesItsFolderOnce)
+{
+    EXPECT_STREQ(in_store("/srv/b", failure(Fault::kIoError, "incoming: it failed")).message(),
+                 "/srv/b: incoming: it failed");
+    EXPECT_STREQ(in_store("/srv/b", failure(Fault::kIoError, "/srv/b/catalogue.sqlite: damaged")).message(),
+                 "/srv/b/catalogue.sqlite: damaged");
+    EXPECT_TRUE(in_store("/srv/b", {}).ok());
 }
 
 TEST(StoreWords, BytesAreShownInTheUnitThatFits)
