@@ -140,7 +140,8 @@ TEST(CatalogueBeside, AFileThatMayNotBeWrittenIsReadOrRefused)
             return 90;
         const auto writer = Catalogue::open(path, Access::kWrite);
         const std::int64_t rows = rows_in(path);
-        std::printf("for writing: %s; rows when read: %lld\n", writer.status().message(), static_cast<long long>(rows));
+        std::fprintf(stderr, "for writing: %s; rows when read: %lld\n", writer.status().message(),
+                     static_cast<long long>(rows));
         if (writer.status().fault() != Fault::kIoError)
             return 91;
         return rows == 30 || rows == -static_cast<int>(Fault::kIoError) ? 0 : 92;

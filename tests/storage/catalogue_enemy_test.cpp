@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <random>
@@ -167,6 +168,36 @@ TEST_F(CatalogueEnemy, LinksPipesAndJournalsAreNotOpened)
     folder_.write("c.sqlite-journal", "names a file to be deleted");
     expect_refused("-journal");
     EXPECT_TRUE(std::filesystem::exists(path() + "-journal"));
+}
+
+TEST_F(CatalogueEnemy, ATreeThatLeadsRoundEndsTheWalk)
+{
+    ASSERT_TRUE(test::make_catalogue(path(), 120));
+    test::Bytes bytes = test::bytes_of(path());
+    // SQLite's file format, 1.6: page 2 is an inner node; behind 12 bytes of head come the places of its cells, each of
+    // which begins with the number of a page below. The second one is made to name the first one's page again.
+    constexpr std::size_t kPage = 4096;
+    ASSERT_EQ(bytes[kPage], 0x05);
+    ASSERT_GE(bytes[kPage + 4], 2);
+    const auto cell = [&](std::size_t i) {
+        const std::size_t at = kPage + 12 + 2 * i;
+        return kPage + static_cast<std::size_t>(bytes[at] << 8 | bytes[at + 1]);
+    };
+    std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(cell(0)), 4,
+                bytes.begin() + static_cast<std::ptrdiff_t>(cell(1)));
+    put_bytes(bytes);
+    const auto reader = Catalogue::open(path(), Access::kRead);
+    ASSERT_TRUE(reader.ok()) << reader.status().message();
+    std::int64_t last = 0;
+    const Status walked = reader.value()->for_each({}, [&](const SlotRow& row) {
+        EXPECT_GT(row.sequence, last);
+        last = row.sequence;
+        return true;
+    });
+    EXPECT_EQ(walked.fault(), Fault::kBadData) << walked.message();
+    EXPECT_EQ(reader.value()->totals().status().fault(), Fault::kBadData);
+    EXPECT_EQ(reader.value()->check().fault(), Fault::kBadData);
+    expect_refused("a tree that leads round");
 }
 
 TEST_F(CatalogueEnemy, CutAndFlippedBytesAreSentencesNeverCrashes)

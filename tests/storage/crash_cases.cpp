@@ -94,7 +94,7 @@ void Run::cut_repair(const Cut& cut, const CrashMedium& repaired, Moment opened)
     const std::vector<Change> repair = repair_of(repaired, opened);
     Dice dice{cut.at * 31 + cut.seed};
     for (const auto mode : {Cut::Mode::kInOrder, Cut::Mode::kSubset, Cut::Mode::kSubset, Cut::Mode::kTorn}) {
-        const Cut second{mode, static_cast<std::size_t>(dice.below(repair.size() + 1)),
+        const Cut second{mode, dice.below(repair.size() + 1),
                          mode == Cut::Mode::kInOrder ? 0U : static_cast<unsigned>(dice.below(100))};
         CrashMedium card{surviving(repaired.start(), repair, second)};
         if (!is_new(card.start(), cut.at))

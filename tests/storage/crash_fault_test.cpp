@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <ostream>
 
 using namespace dicot;
 using namespace dicot::test;
@@ -20,6 +21,11 @@ struct FaultRow
     bool lasts;
     int every; ///< each operation, or one of so many
 };
+
+void PrintTo(const FaultRow& row, std::ostream* out)
+{
+    *out << row.name;
+}
 
 constexpr FaultRow kTable[] = {
     {"eio", EIO, false, 1},         {"eio-on", EIO, true, 5},   {"enospc", ENOSPC, false, 1},

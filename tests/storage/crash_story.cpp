@@ -83,6 +83,7 @@ public:
     Story tell();
     Story tell_until_full(int slots);
     Story tell_with_a_thief();
+    Story tell_of_small_card();
 
 private:
     bool open();
@@ -222,6 +223,24 @@ Story Teller::tell_until_full(int slots)
     return story_;
 }
 
+Story Teller::tell_of_small_card()
+{
+    constexpr int kFirst = 4;
+    constexpr int kThen = 5;
+    constexpr std::uint64_t kRoomBytes = 7 * 4096;
+    if (!open())
+        return story_;
+    for (int k = 0; k < kFirst + kThen; ++k) {
+        if (k == kFirst)
+            card_.set_capacity(card_.now().used_bytes() + kRoomBytes);
+        for (Told& told : story_.all)
+            told.prune_from = k < kFirst ? kNever : std::min(told.prune_from, card_.log().size());
+        snapshot(kLateEvening + k * 60 * kSecond);
+    }
+    store_.reset();
+    return story_;
+}
+
 Story Teller::tell_with_a_thief()
 {
     if (!open())
@@ -258,6 +277,13 @@ Story tell(CrashMedium& card, CrashVfs& vfs, const StoryRules& rules)
 Story tell_until_full(CrashMedium& card, CrashVfs& vfs, const StoryRules& rules, int slots)
 {
     return Teller(card, vfs, rules).tell_until_full(slots);
+}
+
+Story tell_of_small_card(CrashMedium& card, CrashVfs& vfs)
+{
+    StoryRules rules;
+    rules.store = {0, Prune::kAll};
+    return Teller(card, vfs, rules).tell_of_small_card();
 }
 
 Story tell_with_a_thief(CrashMedium& card, CrashVfs& vfs, const StoryRules& rules)

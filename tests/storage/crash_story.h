@@ -61,6 +61,8 @@ Story tell(CrashMedium& card, CrashVfs& vfs, const StoryRules& rules = {});
 
 /// Only snapshots, `slots` of them, on a card that becomes full.
 Story tell_until_full(CrashMedium& card, CrashVfs& vfs, const StoryRules& rules, int slots);
+/// Snapshots on a card with room for few: the older ones go, also those that nobody has.
+Story tell_of_small_card(CrashMedium& card, CrashVfs& vfs);
 /// Two snapshots; in the midst of the second one somebody else takes all the room there is.
 Story tell_with_a_thief(CrashMedium& card, CrashVfs& vfs, const StoryRules& rules);
 

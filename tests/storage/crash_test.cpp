@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -57,6 +58,18 @@ TEST_F(StoreAfterPowerLoss, keeps_its_promises_whatever_was_not_synced_is_lost)
 TEST_F(StoreAfterPowerLoss, keeps_its_promises_when_writes_are_torn)
 {
     hold({.mode = Cut::Mode::kTorn, .seeds = 8, .repairs_every = 6}, 400);
+}
+
+TEST_F(StoreAfterPowerLoss, keeps_its_promises_while_old_snapshots_make_room)
+{
+    CrashMedium card;
+    recording_.story = tell_of_small_card(card, scene_.vfs());
+    recording_.log = card.log();
+    ASSERT_EQ(recording_.story.refusals, 0) << recording_.story.first_refusal;
+    const auto renames = std::count_if(recording_.log.begin(), recording_.log.end(),
+                                       [](const Change& change) { return change.kind == Change::Kind::kRename; });
+    ASSERT_GT(static_cast<std::size_t>(renames), recording_.story.all.size()) << "nothing had to go";
+    hold({.mode = Cut::Mode::kSubset, .seeds = 5, .repairs_every = 8}, 200);
 }
 
 /// When the next write to `name` begins, after `from`.

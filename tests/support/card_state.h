@@ -87,8 +87,8 @@ class Dice
 public:
     explicit Dice(std::uint64_t seed) noexcept : state_(seed) {}
     std::uint64_t next() noexcept; ///< SplitMix64
-    std::uint64_t below(std::uint64_t limit) noexcept { return next() % limit; }
-    bool one_in(std::uint64_t n) noexcept { return below(n) == 0; }
+    std::size_t below(std::size_t limit) noexcept { return static_cast<std::size_t>(next() % limit); }
+    bool one_in(std::size_t n) noexcept { return below(n) == 0; }
 
 private:
     std::uint64_t state_;

@@ -111,7 +111,7 @@ void apply_torn(CardState& state, Change write, Dice& dice)
     const std::size_t torn = (first + dice.below(sectors + 1)) * kSectorBytes;
     const std::size_t from = std::clamp(torn, begin, end);
     const std::size_t until = std::clamp(torn + kSectorBytes, begin, end);
-    const std::uint64_t how = dice.below(3);
+    const std::size_t how = dice.below(3);
     for (std::size_t k = from; k < until; ++k)
         write.bytes[k - begin] = how == 0 ? std::byte{0} : static_cast<std::byte>(dice.next());
     if (dice.one_in(3))

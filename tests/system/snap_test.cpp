@@ -294,51 +294,5 @@ TEST_F(Recorded, WhatWasNeverTriedLeavesNothing)
     EXPECT_FALSE(fs::exists(folder_->path("nothing")));
 }
 
-TEST_F(Recorded, ARigFileThatIsNotThereIsAMiss)
-{
-    write("norig.toml", "[cameras]\nleft = \"replay:pairs\"\nright = \"replay:pairs\"\n[rig]\nfile = \"none.yaml\"\n");
-    const ToolRun no_rig = dicot("snap --config " + folder_->path("norig.toml") + " -o " + folder_->path("norig"));
-    EXPECT_EQ(no_rig.exit_code, 66);
-    EXPECT_THAT(no_rig.output, HasSubstr("none.yaml"));
-    ASSERT_EQ(snapshots_in(folder_->path("norig")).size(), 1U);
-    const json record = json_file(snapshots_in(folder_->path("norig")).front() / "record.json");
-    EXPECT_THAT(record["reason"].get<std::string>(), HasSubstr("none.yaml"));
-}
-
-TEST_F(Recorded, TheRecordHoldsWhatIsKnown)
-{
-    const std::string sections =
-        "[output]\ndevice = 'b'\nkeep_raw = true\n[matching]\nwindow = 5\n[burst]\nframes = 2\n";
-    const ToolRun run = dicot("snap --json" + config("", sections) + "-o " + folder_->path("known"));
-    ASSERT_EQ(run.exit_code, 0) << run.output;
-    const fs::path shot = json_in(run.output)["folder"].get<std::string>();
-    const json record = json_file(shot / "record.json");
-    EXPECT_EQ(record["format"], "dicot record 1");
-    EXPECT_EQ(record["sequence"], 1);
-    EXPECT_EQ(record["device"], "b");
-    EXPECT_TRUE(record["due"].is_null());
-    EXPECT_TRUE(record["reason"].is_null());
-    EXPECT_TRUE(is_utc_time(record["time"].get<std::string>()));
-    EXPECT_THAT(record["clock"]["trust"].get<std::string>(), testing::AnyOf("synchronised", "set"));
-    EXPECT_EQ(record["parameters"]["matching"]["window"], 5);
-    EXPECT_EQ(record["parameters"]["output"]["keep_raw"], true);
-    EXPECT_GT(record["memory"]["arena_bytes"], 1'000'000);
-    EXPECT_GT(record["memory"]["peak_resident_bytes"], 1'000'000);
-    EXPECT_EQ(record["store"]["interrupted"], 0);
-    EXPECT_TRUE(record["temperatures_c"].is_object());
-    std::size_t bytes = 0;
-    for (const std::string& name : names_in(shot)) {
-        if (name == "record.json" || name == "SHA256SUMS")
-            continue;
-        bytes += fs::file_size(shot / name);
-        EXPECT_THAT(test::run("sha256sum " + (shot / name).string()).output,
-                    testing::StartsWith(record["digests"].value(name, "none")))
-            << name;
-    }
-    EXPECT_EQ(record["digests"].size(), 4U);
-    EXPECT_EQ(record["bytes_written"], bytes);
-    EXPECT_EQ(test::run("cd " + shot.string() + " && sha256sum --strict -c SHA256SUMS").exit_code, 0);
-}
-
 } // namespace
 } // namespace dicot

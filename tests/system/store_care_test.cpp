@@ -103,6 +103,9 @@ TEST_F(StoreCare, AFolderThatSomebodyDeletedIsNamedAndThenLost)
     const ToolRun seen = ask("verify", root);
     EXPECT_EQ(seen.exit_code, 65);
     EXPECT_THAT(seen.output, HasSubstr(gone.string() + ": missing: "));
+    const ToolRun shown = ask("show 1", root);
+    EXPECT_EQ(shown.exit_code, 65);
+    EXPECT_THAT(shown.output, HasSubstr("the folder is not there"));
     EXPECT_EQ(ask("verify --repair", root).exit_code, 0);
     EXPECT_THAT(ask("list", root).output, HasSubstr("1 lost"));
     EXPECT_THAT(ask("show 1", root).output, HasSubstr("its folder was taken away"));
@@ -156,52 +159,6 @@ TEST_F(StoreCare, ASnapshotThatWasInterruptedIsAMissOfTheNextStart)
     EXPECT_THAT(slots[4]["clock_trust"].get<std::string>(), testing::AnyOf("not set", "synchronised"));
 }
 
-TEST_F(StoreCare, ACardWithoutRoomIsAMissWithFiguresAndRemedy)
-{
-    const std::string root = copy();
-    const ToolRun run = snap(root, "", "reserve_mib = 1048576\n");
-    EXPECT_EQ(run.exit_code, 74);
-    EXPECT_THAT(run.output, AllOf(HasSubstr("the card is full"), HasSubstr("output.reserve_mib")));
-    const json slots = report("list --missed", root)["stores"][0]["slots"];
-    ASSERT_EQ(slots.size(), 2U);
-    EXPECT_THAT(slots[1]["reason"].get<std::string>(), HasSubstr("the card is full"));
-    EXPECT_THAT(dicot("list --store " + root + config("", "reserve_mib = 1048576\n")).output,
-                testing::ContainsRegex("(room for 0.0 days|not known yet)"));
-}
-
-TEST_F(StoreCare, AFileThatCannotBeWrittenIsAMissWithoutPictures)
-{
-    const std::string root = copy();
-    // No file may be larger than 100 KiB: the cloud is.
-    const ToolRun run =
-        test::run("trap '' XFSZ; ulimit -f 200; " + std::string{DICOT_PROGRAM} + " snap -o " + root + config());
-    EXPECT_EQ(run.exit_code, 74) << run.output;
-    EXPECT_THAT(run.output, HasSubstr("cloud.drc: "));
-    const fs::path missed = snapshots(root).back();
-    EXPECT_FALSE(fs::exists(missed / "left.jpg"));
-    const json record = json::parse(test::text_of(missed / "record.json"));
-    EXPECT_EQ(record["sequence"], 4);
-    EXPECT_EQ(record["outcome"], "missed");
-    EXPECT_FALSE(record.contains("cloud"));
-    EXPECT_TRUE(record.contains("shot"));
-    EXPECT_EQ(ask("verify", root).exit_code, 0);
-}
-
-TEST_F(StoreCare, AReasonTooLongForItsRowIsTheSameInRecordAndRow)
-{
-    const std::string root = copy();
-    std::string name;
-    for (int i = 0; i < 90; ++i)
-        name += i % 7 == 0 ? "x" : "ü";
-    std::ofstream(folder_->path("long.toml")) << "[cameras]\nleft = 'replay:" << name << "'\nright = 'replay:" << name
-                                              << "'\n[rig]\nfile = 'rig.yaml'\n[output]\ndevice = 'bench'\n";
-    const ToolRun run = dicot("snap -o " + root + " --config " + folder_->path("long.toml"));
-    EXPECT_NE(run.exit_code, 0);
-    EXPECT_THAT(run.output, HasSubstr("the miss is recorded in"));
-    const ToolRun verified = ask("verify", root);
-    EXPECT_EQ(verified.exit_code, 0) << verified.output;
-}
-
 TEST_F(StoreCare, OnlyWhatTheRuleAllowsIsPrunedAndNeverTheNewest)
 {
     const std::string root = copy();
@@ -240,15 +197,6 @@ TEST_F(StoreCare, NothingGrowsOldByAClockThatIsNotSet)
     EXPECT_EQ(run.exit_code, 69) << run.output;
     EXPECT_THAT(run.output, HasSubstr("a clock that can be trusted"));
     EXPECT_EQ(here(root).front(), 1);
-}
-
-TEST_F(StoreCare, TheFolderOfOneBoardIsNotWhereBoardsGo)
-{
-    const std::string root = copy();
-    const ToolRun run = snap(board(root));
-    EXPECT_EQ(run.exit_code, 64);
-    EXPECT_THAT(run.output, HasSubstr("name the one around it"));
-    EXPECT_FALSE(fs::exists(board(root) + "/bench"));
 }
 
 } // namespace

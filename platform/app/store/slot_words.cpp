@@ -95,7 +95,7 @@ std::optional<TimeSpan> parse_time(std::string_view text)
     constexpr std::string_view kWhole = "0000-00-00T00:00:00";
     constexpr std::size_t kDay = 10;
     constexpr std::size_t kMinute = 16;
-    if (text.size() > kDay && text.ends_with('Z'))
+    if (text.size() > kMinute && text.ends_with('Z'))
         text.remove_suffix(1);
     if (text.size() != kDay && text.size() != kMinute && text.size() != kWhole.size())
         return std::nullopt;

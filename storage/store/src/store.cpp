@@ -213,7 +213,12 @@ Result<VerifyReport> CardStore::verify(bool repair, FunctionRef<void(const Findi
     if (repair && !catalogue_->check().ok()) {
         catalogue_.reset();
         TRY(quarantine(medium_, kCatalogueName));
-        TRY(open_catalogue_and_rows(catalogue_path_, vfs_, true));
+        if (const Status opened = open_catalogue_and_rows(catalogue_path_, vfs_, true); !opened.ok()) {
+            // The card has just failed; what is asked of this store next meets a catalogue all the same.
+            if (catalogue_ == nullptr)
+                catalogue_ = TRY(Catalogue::open(":memory:", Catalogue::Access::kWrite));
+            return opened;
+        }
     }
     return verify_folders(medium_, *catalogue_, desk_, repair ? Verify::kAndRepair : Verify::kOwn, found, progress);
 }

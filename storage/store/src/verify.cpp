@@ -55,6 +55,9 @@ void Verifier::find(Kind kind, std::int64_t sequence, const StorePath& path, con
 {
     ++report_.findings;
     report_.mended += mended ? 1 : 0;
+    const std::string_view words = sentence; // that of a failure names the path itself
+    if (words.size() > path.view().size() + 2 && words.starts_with(path.view()))
+        sentence += path.view().size() + 2;
     found_({kind, sequence, path.c_str(), sentence, mended});
 }
 
