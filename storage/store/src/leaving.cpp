@@ -57,10 +57,14 @@ Result<bool> move_aside(Medium& medium, Catalogue& catalogue, SlotRow row)
 /// A row that says so is not enough to delete what nobody may have.
 Result<bool> is_pulled(Medium& medium, Catalogue& catalogue, SlotRow row)
 {
-    if (pulled_time(medium, folder_of(row), row.sums) || !is_there(medium, folder_of(row).c_str()))
+    const StorePath folder = folder_of(row);
+    if (pulled_time(medium, folder, row.sums) || !is_there(medium, folder.c_str()))
         return true;
-    row.pulled_us = {};
-    TRY(catalogue.put(row));
+    EntryKind kind{};
+    if (medium.kind_of(join(folder.view(), kPulledMark).c_str(), kind).number() == ENOENT) {
+        row.pulled_us = {};
+        TRY(catalogue.put(row));
+    }
     return false;
 }
 
