@@ -186,17 +186,9 @@ TEST_F(CatalogueEnemy, ATreeThatLeadsRoundEndsTheWalk)
     std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(cell(0)), 4,
                 bytes.begin() + static_cast<std::ptrdiff_t>(cell(1)));
     put_bytes(bytes);
-    const auto reader = Catalogue::open(path(), Access::kRead);
-    ASSERT_TRUE(reader.ok()) << reader.status().message();
-    std::int64_t last = 0;
-    const Status walked = reader.value()->for_each({}, [&](const SlotRow& row) {
-        EXPECT_GT(row.sequence, last);
-        last = row.sequence;
-        return true;
-    });
-    EXPECT_EQ(walked.fault(), Fault::kBadData) << walked.message();
-    EXPECT_EQ(reader.value()->totals().status().fault(), Fault::kBadData);
-    EXPECT_EQ(reader.value()->check().fault(), Fault::kBadData);
+    const Status status = Catalogue::open(path(), Access::kRead).status();
+    EXPECT_EQ(status.fault(), Fault::kBadData);
+    EXPECT_NE(std::string(status.message()).find("out of order"), std::string::npos) << status.message();
     expect_refused("a tree that leads round");
 }
 

@@ -59,6 +59,7 @@ most_skew_ms = 1000.0
 window = WINDOW
 [output]
 device = "board"
+reserve_mib = 16
 [rig]
 file = "/files/rig.yaml"
 END

@@ -3,8 +3,9 @@
 #
 #   sh tests/vm/store.sh [FOLDER] [SEED] [STATES]     FOLDER: for all that it makes; .build/vm-store
 #
-# Two disks are logged while a store is filled: one by dicot's own medium, one by a careless one whose syncs do nothing. Then
-# store/crash_test.py replays the power cuts that the logs allow; the careless one must be found out.
+# Three disks are logged while a store is filled: through dicot's own medium, through one whose syncs do nothing, and through one
+# that forgets the folders alone. Then store/crash_test.py replays the power cuts that the logs allow; the careless ones must
+# be found out.
 cd "$(dirname "$0")/../.." || exit 70
 name=store
 . tests/vm/machine.sh
@@ -30,7 +31,7 @@ empty_disk() { # file, bytes of the file system
 }
 rm -rf "$work/empty"
 mkdir -p "$work/empty/store"
-for disk in kept careless; do
+for disk in kept careless nameless; do
     empty_disk "$work/$disk.img" $file_system
     cp --sparse=always "$work/$disk.img" "$work/$disk.before"
 done
@@ -44,7 +45,7 @@ sh tests/vm/image.sh -o "$work/store.cpio" --module ext4 --module nls_cp437 --mo
     tests/vm/guest/store.sh
 failed=0
 sh tests/vm/run.sh "$work/store.cpio" --timeout 300 --out "$work/out" --logged-disk "$work/kept.img" \
-    --logged-disk "$work/careless.img" --disk "$work/small.img" --disk "$work/fat.img" || failed=1
+    --logged-disk "$work/careless.img" --logged-disk "$work/nameless.img" --disk "$work/small.img" --disk "$work/fat.img" || failed=1
 
 replay() { # disk, name, states, more words
     disk=$1 replayed=$2 count=$3
@@ -54,5 +55,6 @@ replay() { # disk, name, states, more words
 }
 python3 -B tests/vm/store/block_log_test.py || failed=1
 replay kept store.acknowledged_outlives_the_power "$states"
-replay careless store.without_syncs_it_does_not 20 --careless
+replay careless store.without_syncs_it_does_not 40 --careless 50
+replay nameless store.without_syncs_of_folders_it_does_not 60 --careless 5
 exit $failed

@@ -168,7 +168,8 @@ void* BlockHeap::allocate(std::size_t bytes, std::size_t alignment) noexcept
 void BlockHeap::release(void* given) noexcept
 {
     auto* const payload = static_cast<std::byte*>(given);
-    if (payload < begin_ + kHeaderBytes || payload >= end_ || static_cast<std::size_t>(payload - begin_) % kUnit != 0)
+    if (begin_ == nullptr || payload < begin_ + kHeaderBytes || payload >= end_ ||
+        static_cast<std::size_t>(payload - begin_) % kUnit != 0)
         return;
     auto* block = Block::at(payload - kHeaderBytes);
     if (block->stamp != stamp_of(block))

@@ -30,6 +30,10 @@ public:
     explicit SqlCatalogue(Database database) : database_(std::move(database)) {}
 
     Status prepare();
+    Status look_at_rows()
+    {
+        return walk({}, false, [](const SlotRow&) { return true; });
+    }
     Status put(const SlotRow& row) override;
     Result<std::optional<SlotRow>> find(std::int64_t sequence) override;
     Result<std::int64_t> last_sequence() override;
@@ -225,7 +229,7 @@ Status SqlCatalogue::check()
             return database_.damaged(complaint.c_str());
         }
     }
-    return walk({}, false, [](const SlotRow&) { return true; });
+    return look_at_rows();
 }
 
 } // namespace
@@ -235,6 +239,7 @@ Result<std::unique_ptr<Catalogue>> Catalogue::open(const std::string& path, Acce
     TRY(sqlite_heap::start());
     auto catalogue = std::make_unique<SqlCatalogue>(TRY(open_database(path, access, vfs)));
     TRY(catalogue->prepare());
+    TRY(catalogue->look_at_rows()); // a row that nobody can read is to be known now, while there is a remedy
     return std::unique_ptr<Catalogue>{std::move(catalogue)};
 }
 

@@ -10,10 +10,9 @@ namespace dicot {
 namespace {
 
 constexpr std::int64_t kSecondUs = 1'000'000;
-constexpr std::int64_t kMaxBytes = std::int64_t{1} << 40;
 
 static_assert(kFirstUtcUs == -62167219200000000 && kLastUtcUs == 253402300799999999 && kMaxSequence == 999999999 &&
-              kMaxRecordPoints == 4294967295 && kMaxBytes == 1099511627776);
+              kMaxRecordPoints == 4294967295 && kMaxSlotBytes == 1099511627776);
 
 #define DICOT_TIME(name) "typeof(" name ")='integer' AND " name " BETWEEN -62167219200000000 AND 253402300799999999"
 #define DICOT_TEXT(name, most)                                                                                         \
@@ -32,7 +31,7 @@ bool is_sound(const SlotRow& row)
     return row.sequence >= 1 && row.sequence <= kMaxSequence && is_time(row.began_us) &&
            row.began_us % kSecondUs == 0 && (!row.due_us || is_time(*row.due_us)) &&
            (!row.pulled_us || is_time(*row.pulled_us)) && row.points >= 0 && row.points <= kMaxRecordPoints &&
-           row.bytes >= 0 && row.bytes <= kMaxBytes && kept >= 0 && kept <= static_cast<int>(Kept::kLost);
+           row.bytes >= 0 && row.bytes <= kMaxSlotBytes && kept >= 0 && kept <= static_cast<int>(Kept::kLost);
 }
 
 int digit_of(char c)

@@ -48,6 +48,21 @@ Status on_card(Errno outcome, const char* path, const char* doing)
     return outcome.ok() ? Status{} : card_failure(outcome, path, doing);
 }
 
+Status opened(Errno outcome, const char* path)
+{
+    switch (outcome.number()) {
+    case ENOENT:
+        return failure(Fault::kNoInput, "%s: it is not there", shown_path(path));
+    case EINVAL:
+    case EISDIR:
+    case ELOOP:
+    case ENOTDIR:
+        return failure(Fault::kBadData, "%s: it is no file", shown_path(path));
+    default:
+        return on_card(outcome, path, "opening it");
+    }
+}
+
 bool is_there(Medium& medium, const char* path)
 {
     EntryKind kind{};
@@ -92,7 +107,7 @@ Status read_file(Medium& medium, const StorePath& path, std::uint64_t most_bytes
 {
     Medium::File file = 0;
     std::uint64_t size = 0;
-    TRY(on_card(medium.open(path.c_str(), file, size), path.c_str(), "opening it"));
+    TRY(opened(medium.open(path.c_str(), file, size), path.c_str()));
     Status status;
     if (size > most_bytes)
         status = failure(Fault::kBadData, "%s: it is larger than such a file can be", shown_path(path.c_str()));
@@ -117,7 +132,7 @@ Result<std::span<const std::byte>> read_whole(Medium& medium, const StorePath& p
     // The pieces are read to where they stay: each time into the rest of `into`.
     Medium::File file = 0;
     std::uint64_t size = 0;
-    TRY(on_card(medium.open(path.c_str(), file, size), path.c_str(), "opening it"));
+    TRY(opened(medium.open(path.c_str(), file, size), path.c_str()));
     Status status;
     if (size > into.size())
         status = failure(Fault::kBadData, "%s: it is larger than such a file can be", shown_path(path.c_str()));
@@ -134,18 +149,17 @@ Status empty_folder(Medium& medium, const StorePath& folder)
     // One at a time: a folder is not to change while it is listed.
     for (;;) {
         StorePath next;
-        bool is_folder = false;
+        bool is_ours = true;
         const Errno listed = medium.list(folder.c_str(), [&](const MediumEntry& entry) {
             next = join(folder.view(), entry.name);
-            is_folder = entry.kind == EntryKind::kFolder;
+            is_ours = entry.kind != EntryKind::kFolder && next.view().ends_with(entry.name); // a long name is cut
             return false;
         });
         TRY(on_card(listed, folder.c_str(), "listing it"));
         if (next.empty())
             return {};
-        if (is_folder)
-            return failure(Fault::kBadData, "%s: a folder that dicot did not make; take it away",
-                           shown_path(next.c_str()));
+        if (!is_ours)
+            return failure(Fault::kBadData, "%s: dicot did not make it; take it away", shown_path(next.c_str()));
         TRY(on_card(medium.remove_file(next.c_str()), next.c_str(), "removing it"));
     }
 }

@@ -1,10 +1,13 @@
 #include "leaving.h"
 
 #include "folder_name.h"
+#include "snapshot_folder.h"
+#include "start_up.h"
 
 #include "dicot/base/utc_time.h"
 
 #include <array>
+#include <cerrno>
 #include <utility>
 
 namespace dicot {
@@ -21,11 +24,8 @@ struct Batch
 /// The newest folder that is there: it holds the sequence if the catalogue is lost.
 Result<std::int64_t> newest_here(Catalogue& catalogue)
 {
-    constexpr std::int64_t kLooked = 256;
-    std::int64_t newest = TRY(catalogue.last_sequence());
-    SlotQuery query;
-    query.last = kLooked;
-    TRY(catalogue.for_each(query, [&](const SlotRow& row) {
+    std::int64_t newest = 0;
+    TRY(catalogue.for_each({}, [&](const SlotRow& row) {
         if (row.kept == Kept::kHere)
             newest = row.sequence;
         return true;
@@ -33,12 +33,39 @@ Result<std::int64_t> newest_here(Catalogue& catalogue)
     return newest;
 }
 
-/// The row follows when there is room for it again: finish_leaving().
-Status move_aside(Medium& medium, const SlotRow& row)
+/// A clock that was not set tells no age.
+bool knows_its_age(const SlotRow& row)
+{
+    return row.clock_trust.view() == "set" || row.clock_trust.view() == "synchronised";
+}
+
+/// Whether it is on its way. The row follows when there is room for it again: finish_leaving().
+Result<bool> move_aside(Medium& medium, Catalogue& catalogue, SlotRow row)
 {
     const StorePath from = folder_of(row);
     const StorePath to = join(kLeaving, snapshot_name({row.sequence, row.began_us}).view());
-    return on_card(medium.rename(from.c_str(), to.c_str()), from.c_str(), "renaming");
+    const Errno moved = medium.rename(from.c_str(), to.c_str());
+    if (moved.number() == ENOENT && !is_there(medium, from.c_str())) { // somebody was quicker
+        row.kept = Kept::kLost;
+        TRY(catalogue.put(row));
+        return false;
+    }
+    TRY(on_card(moved, from.c_str(), "renaming"));
+    return true;
+}
+
+/// A row that says so is not enough to delete what nobody may have.
+Result<bool> is_pulled(Medium& medium, Catalogue& catalogue, SlotRow row)
+{
+    const StorePath folder = folder_of(row);
+    if (pulled_time(medium, folder, row.sums) || !is_there(medium, folder.c_str()))
+        return true;
+    EntryKind kind{};
+    if (medium.kind_of(join(folder.view(), kPulledMark).c_str(), kind).number() == ENOENT) {
+        row.pulled_us = {};
+        TRY(catalogue.put(row));
+    }
+    return false;
 }
 
 } // namespace
@@ -53,7 +80,7 @@ Result<PruneReport> prune_folders(Medium& medium, Catalogue& catalogue, Prune pr
     TRY(on_card(medium.space(space), "", "asking for its free space"));
     const std::int64_t newest = TRY(newest_here(catalogue));
     const auto leaves = [&](const SlotRow& row, bool pulled_only) {
-        const bool too_old = wish.older_than_us && row.began_us < *wish.older_than_us;
+        const bool too_old = wish.older_than_us && row.began_us < *wish.older_than_us && knows_its_age(row);
         const bool in_the_way = space.free_bytes + report.bytes < wish.free_bytes;
         return row.kept == Kept::kHere && row.sequence != newest && row.pulled_us.has_value() == pulled_only &&
                (too_old || in_the_way);
@@ -71,11 +98,11 @@ Result<PruneReport> prune_folders(Medium& medium, Catalogue& catalogue, Prune pr
             }));
             for (std::size_t i = 0; i < batch.count; ++i) {
                 const SlotRow& row = batch.rows[i];
-                if (!leaves(row, pulled_only))
+                if (!leaves(row, pulled_only) || (pulled_only && !TRY(is_pulled(medium, catalogue, row))))
                     continue;
                 going(row);
-                if (!wish.dry_run)
-                    TRY(move_aside(medium, row));
+                if (!wish.dry_run && !TRY(move_aside(medium, catalogue, row)))
+                    continue;
                 ++report.removed;
                 report.bytes += static_cast<std::uint64_t>(row.bytes);
             }
@@ -92,6 +119,7 @@ Status finish_leaving(Medium& medium, Catalogue& catalogue)
 {
     std::array<StorePath, kBatch> emptied;
     bool synced = false;
+    Status failed;
     for (;;) {
         std::size_t count = 0;
         const Errno listed = medium.list(kLeaving, [&](const MediumEntry& entry) {
@@ -105,22 +133,33 @@ Status finish_leaving(Medium& medium, Catalogue& catalogue)
         // What is gone must not come to be missing in its old place.
         if (!std::exchange(synced, true))
             TRY(on_card(medium.sync_all(), kLeaving, "syncing"));
+        std::size_t gone = 0;
         for (std::size_t i = 0; i < count; ++i) {
             const SnapshotName name = *parse_snapshot_name(emptied[i].view());
-            TRY(empty_folder(medium, join(kLeaving, emptied[i].view())));
-            (void)medium.remove_folder(utc_day(name.began_us).c_str()); // refused if it was not the last of its day
-            SlotRow row = TRY(catalogue.find(name.sequence)).value_or(row_named(name));
-            if (row.kept != Kept::kPruned && row.began_us == name.began_us) {
-                row.kept = Kept::kPruned;
-                TRY(catalogue.put(row));
+            const StorePath path = join(kLeaving, emptied[i].view());
+            const Status status = empty_folder(medium, path);
+            if (status.fault() == Fault::kBadData) { // somebody put something in it
+                TRY(quarantine(medium, path));
+            } else if (!status.ok()) {
+                failed = status;
+                continue;
             }
+            SlotRow row = TRY(catalogue.find(name.sequence)).value_or(row_named(name));
+            row.kept = status.ok() ? Kept::kPruned : Kept::kQuarantined;
+            (void)medium.remove_folder(utc_day(name.began_us).c_str()); // refused if it was not the last of its day
+            if (row.began_us == name.began_us)
+                TRY(catalogue.put(row));
+            if (status.ok())
+                emptied[gone++] = emptied[i];
         }
         // The emptied folder stays until its row is durable.
         TRY(catalogue.sync());
-        for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t i = 0; i < gone; ++i) {
             const StorePath path = join(kLeaving, emptied[i].view());
             TRY(on_card(medium.remove_folder(path.c_str()), path.c_str(), "removing it"));
         }
+        if (!failed.ok())
+            return failed;
     }
 }
 

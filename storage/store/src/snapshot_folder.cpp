@@ -6,13 +6,13 @@
 #include "dicot/os/sha256.h"
 #include "dicot/os/shown_path.h"
 
-#include <limits>
 #include <utility>
 
 namespace dicot {
 namespace {
 
 constexpr std::size_t kPieceBytes = std::size_t{64} << 10;
+constexpr std::uint64_t kMostFileBytes = kMaxSlotBytes / (2 * kMaxSums);
 
 std::string_view text_of(std::span<const std::byte> bytes)
 {
@@ -83,8 +83,10 @@ Result<SlotRow> row_of(Medium& medium, const StorePath& folder, const SnapshotNa
         const StorePath path = join(folder.view(), sum.name.view());
         Medium::File file = 0;
         std::uint64_t size = 0;
-        TRY(on_card(medium.open(path.c_str(), file, size), path.c_str(), "opening it"));
+        TRY(opened(medium.open(path.c_str(), file, size), path.c_str()));
         TRY(on_card(medium.close(file), path.c_str(), "closing it"));
+        if (size > kMostFileBytes)
+            return failure(Fault::kBadData, "%s: it is larger than such a file can be", shown_path(path.c_str()));
         row.bytes += static_cast<std::int64_t>(size);
     }
     row.pulled_us = pulled_time(medium, folder, row.sums);
@@ -96,37 +98,47 @@ Status check_file(Medium& medium, const StorePath& folder, const Sum& sum, const
 {
     const StorePath path = join(folder.view(), sum.name.view());
     Sha256Stream stream;
-    TRY(read_file(medium, path, std::numeric_limits<std::uint64_t>::max(), desk.piece(),
-                  [&](std::span<const std::byte> piece) {
-                      stream.update(piece);
-                      bytes += piece.size();
-                  }));
+    TRY(read_file(medium, path, kMostFileBytes, desk.piece(), [&](std::span<const std::byte> piece) {
+        stream.update(piece);
+        bytes += piece.size();
+    }));
     if (sum.sha256.view() != hex_of(stream.finish()).data())
         return failure(Fault::kBadData, "%s: its bytes are not those that were stored", shown_path(path.c_str()));
     return {};
 }
 
-bool is_whole(Medium& medium, const StorePath& folder, const SnapshotName& name, const ReadingDesk& desk)
+bool is_damage(const Status& status)
 {
+    return status.fault() == Fault::kBadData || status.fault() == Fault::kNoInput;
+}
+
+Result<bool> is_whole(Medium& medium, const StorePath& folder, const SnapshotName& name, const ReadingDesk& desk)
+{
+    const auto verdict = [](const Status& status) -> Result<bool> {
+        if (status.ok() || is_damage(status))
+            return status.ok();
+        return status;
+    };
     const Result<ReadSums> sums = read_sums(medium, folder);
     if (!sums.ok())
-        return false;
+        return verdict(sums.status());
     std::uint64_t bytes = 0;
     for (const Sum& sum : sums.value().sums.all())
-        if (!check_file(medium, folder, sum, desk, bytes).ok())
-            return false;
+        if (const Status status = check_file(medium, folder, sum, desk, bytes); !status.ok())
+            return verdict(status);
     // What was taken back may still be there.
     bool is_alone = true;
     const Errno listed = medium.list(folder.c_str(), [&](const MediumEntry& entry) {
         is_alone = entry.name == kSums || sums.value().sums.find(entry.name) != nullptr;
         return is_alone;
     });
-    return listed.ok() && is_alone && row_of(medium, folder, name, desk).ok();
+    TRY(on_card(listed, folder.c_str(), "listing it"));
+    return is_alone ? verdict(row_of(medium, folder, name, desk).status()) : Result<bool>(false);
 }
 
-Status for_each_folder(Medium& medium, FunctionRef<bool(const StorePath& folder, const SnapshotName& name)> visit)
+Result<bool> for_each_folder(Medium& medium, FunctionRef<bool(const StorePath& folder, const SnapshotName& name)> visit)
 {
-    Status status;
+    bool all = true;
     const Errno listed = medium.list("", [&](const MediumEntry& day) {
         if (day.kind != EntryKind::kFolder || !is_day_name(day.name))
             return true;
@@ -138,11 +150,11 @@ Status for_each_folder(Medium& medium, FunctionRef<bool(const StorePath& folder,
                 goes_on = visit(join(day_path.view(), entry.name), *name);
             return goes_on;
         });
-        status = on_card(inside, day_path.c_str(), "listing it");
-        return goes_on && status.ok();
+        all = all && inside.ok();
+        return goes_on;
     });
-    TRY(status);
-    return on_card(listed, "", "listing it");
+    TRY(on_card(listed, "", "listing it"));
+    return all;
 }
 
 } // namespace dicot

@@ -55,9 +55,15 @@ Status check_file(Medium& medium, const StorePath& folder, const Sum& sum, const
                   std::uint64_t& bytes);
 
 /// Whole: SHA256SUMS is there and right, and the record bears the folder's name.
-bool is_whole(Medium& medium, const StorePath& folder, const SnapshotName& name, const ReadingDesk& desk);
+/// Fault::kIoError: nobody can say.
+Result<bool> is_whole(Medium& medium, const StorePath& folder, const SnapshotName& name, const ReadingDesk& desk);
 
-/// Every snapshot in its place, day by day; other entries are passed over. `visit` returns false to end it.
-Status for_each_folder(Medium& medium, FunctionRef<bool(const StorePath& folder, const SnapshotName& name)> visit);
+/// It is there and not what was stored, or not there: reading it again would say the same.
+bool is_damage(const Status& status);
+
+/// Every snapshot in its place, day by day; other entries are passed over. `visit` returns false to end it. False:
+/// there was a day that cannot be listed.
+Result<bool> for_each_folder(Medium& medium,
+                             FunctionRef<bool(const StorePath& folder, const SnapshotName& name)> visit);
 
 } // namespace dicot

@@ -14,6 +14,7 @@ namespace {
 
 constexpr const char* kInterrupted = "interrupted: the power went, or dicot was ended, before the snapshot was stored";
 constexpr std::size_t kMostLeftOvers = 64;
+constexpr std::size_t kLongestName = 64;
 constexpr std::uint64_t kBallastBytes = 256 * 1024;
 
 /// A record that says no more than the folder's name does.
@@ -28,7 +29,7 @@ Status settle_interrupted(Medium& medium, const SnapshotName& name)
     facts.reason = kInterrupted;
     facts.clock_trust = "unknown";
     std::array<char, 1024> text{};
-    const std::size_t bytes = write_plain_record(facts, "dicot", text);
+    const std::size_t bytes = write_plain_record(facts, "dicot " DICOT_VERSION, text);
     TRY(incoming.add(kRecord, [&](ByteSink& sink) { return sink.write(std::as_bytes(std::span(text).first(bytes))); }));
     return incoming.settle().status();
 }
@@ -53,7 +54,7 @@ Status end_one(Medium& medium, Catalogue& catalogue, const StorePath& leaf, cons
     const StorePath target = folder_of(name->sequence, name->began_us).view();
     if (is_there(medium, target.c_str()))
         return quarantine(medium, part);
-    const bool whole = is_whole(medium, part, *name, desk);
+    const bool whole = TRY(is_whole(medium, part, *name, desk));
     const Status status = whole ? settle_whole(medium, *name) : settle_interrupted(medium, *name);
     if (!status.ok())
         return status.fault() == Fault::kBadData ? quarantine(medium, part) : status;
@@ -74,6 +75,14 @@ Result<std::int64_t> highest_name(Medium& medium, const char* folder)
     return highest;
 }
 
+SlotRow unreadable_row(const SnapshotName& name)
+{
+    SlotRow row = row_named(name);
+    row.reason = "its record cannot be read: dicot verify says why";
+    row.clock_trust = "unknown";
+    return row;
+}
+
 /// Also if that cannot be told.
 bool may_have_mark(Medium& medium, const StorePath& folder)
 {
@@ -87,8 +96,14 @@ Status make_rooms(Medium& medium)
 {
     bool any_new = false;
     for (const char* const room : {kIncoming, kLeaving, kQuarantine}) {
-        if (is_there(medium, room))
+        EntryKind kind{};
+        const Errno there = medium.kind_of(room, kind);
+        if (there.ok() && kind == EntryKind::kFolder)
             continue;
+        if (there.ok()) { // somebody else's file or link, in the way
+            const std::string aside = std::string(room) + ".strange";
+            TRY(on_card(medium.rename(room, aside.c_str()), room, "moving it out of the way"));
+        }
         any_new = true;
         TRY(make_folder(medium, room));
     }
@@ -112,20 +127,20 @@ Result<std::unique_ptr<Catalogue>> open_catalogue(Medium& medium, const std::str
 }
 
 Result<bool> add_rows(Medium& medium, Catalogue& catalogue, const ReadingDesk& desk, StartReport& report,
-                      std::int64_t& highest)
+                      std::int64_t& highest, Unreadable unreadable)
 {
     TRY(catalogue.begin());
     bool all = true;
     Status status;
-    const Status walked = for_each_folder(medium, [&](const StorePath& folder, const SnapshotName& name) {
+    const Result<bool> walked = for_each_folder(medium, [&](const StorePath& folder, const SnapshotName& name) {
         status = [&]() -> Status {
             highest = std::max(highest, name.sequence);
             std::optional<SlotRow> row = TRY(catalogue.find(name.sequence));
             if (!row) {
                 const Result<SlotRow> fresh = row_of(medium, folder, name, desk);
                 if (!fresh.ok()) { // damaged: verify names it
-                    all = all && fresh.status().fault() == Fault::kBadData;
-                    return {};
+                    all = all && is_damage(fresh.status());
+                    return unreadable == Unreadable::kNamed ? catalogue.put(unreadable_row(name)) : Status{};
                 }
                 ++report.rows_added;
                 all = all && (fresh.value().pulled_us || !may_have_mark(medium, folder));
@@ -145,9 +160,14 @@ Result<bool> add_rows(Medium& medium, Catalogue& catalogue, const ReadingDesk& d
     // Also after a failure: each row is right, and nothing else may come into this transaction.
     const Status committed = catalogue.commit();
     TRY(status);
-    TRY(walked);
+    TRY(walked.status());
     TRY(committed);
-    return all;
+    // Its numbers may be the highest ones, and no row remembers them.
+    if (!walked.value() && report.catalogue_new)
+        return failure(Fault::kIoError,
+                       "a day's folder cannot be listed, and there is no catalogue to tell its numbers; "
+                       "check the card, or who owns the folder");
+    return all && walked.value();
 }
 
 Status end_interrupted(Medium& medium, Catalogue& catalogue, const ReadingDesk& desk, StartReport& report)
@@ -155,7 +175,8 @@ Status end_interrupted(Medium& medium, Catalogue& catalogue, const ReadingDesk& 
     std::array<StorePath, kMostLeftOvers> names;
     std::size_t count = 0;
     const Errno listed = medium.list(kIncoming, [&](const MediumEntry& entry) {
-        names[count++] = entry.name;
+        if (entry.name.size() <= kLongestName) // dicot made none that is longer
+            names[count++] = entry.name;
         return count < kMostLeftOvers;
     });
     TRY(on_card(listed, kIncoming, "listing it"));
@@ -170,6 +191,10 @@ Status end_interrupted(Medium& medium, Catalogue& catalogue, const ReadingDesk& 
 Result<std::int64_t> last_sequence_of(Medium& medium, Catalogue& catalogue)
 {
     std::int64_t last = TRY(catalogue.last_sequence());
+    TRY(for_each_folder(medium, [&](const StorePath&, const SnapshotName& name) {
+        last = std::max(last, name.sequence);
+        return true;
+    }));
     for (const char* const folder : {kIncoming, kLeaving, kQuarantine})
         last = std::max(last, TRY(highest_name(medium, folder)));
     return last;

@@ -18,10 +18,17 @@ Status make_rooms(Medium& medium);
 Result<std::unique_ptr<Catalogue>> open_catalogue(Medium& medium, const std::string& path, const char* vfs,
                                                   StartReport& report);
 
+/// What becomes of folders whose record cannot be read.
+enum class Unreadable
+{
+    kLeftOut, ///< verify names them, and repair puts them in quarantine
+    kNamed,   ///< a row that says so: for who reads without a catalogue
+};
+
 /// Rows for all folders that have none, and marks that rows have lost. False: the card would not let it read a folder,
 /// and a later start may have more luck. `highest` becomes the highest number that a folder has, if that is more.
 Result<bool> add_rows(Medium& medium, Catalogue& catalogue, const ReadingDesk& desk, StartReport& report,
-                      std::int64_t& highest);
+                      std::int64_t& highest, Unreadable unreadable = Unreadable::kLeftOut);
 
 /// Every snapshot in incoming/ gets its place: as it is if it is whole, else as a miss. What cannot be mended goes to
 /// quarantine, or stays: it never blocks the start.

@@ -89,8 +89,11 @@ Status CardStore::start(const std::string& path, const char* vfs)
         TRY(make_rooms(medium_));
     TRY(make_rooms(medium_));
     TRY(open_catalogue_and_rows(path, vfs, mark_.put()));
-    TRY(finish_leaving(medium_, *catalogue_));
+    if (!finish_leaving(medium_, *catalogue_).ok())
+        ++report_.left_over;
     last_ = std::max(last_, TRY(last_sequence_of(medium_, *catalogue_)));
+    if (last_ > TRY(catalogue_->last_sequence())) // of an older day, or folders were copied in
+        rows_missing_ = !TRY(add_rows(medium_, *catalogue_, desk_, report_, last_)) || rows_missing_;
     TRY(end_interrupted(medium_, *catalogue_, desk_, report_));
     rows_missing_ = rows_missing_ || report_.left_over > 0;
     keep_ballast(medium_, rules_.reserve_bytes);
@@ -244,7 +247,7 @@ Result<std::unique_ptr<Catalogue>> read_catalogue(Medium& medium, const std::str
     const ReadingDesk desk = TRY(ReadingDesk::make());
     StartReport report;
     std::int64_t highest = 0;
-    (void)TRY(add_rows(medium, *copy, desk, report, highest));
+    (void)TRY(add_rows(medium, *copy, desk, report, highest, Unreadable::kNamed));
     return copy;
 }
 
@@ -254,9 +257,10 @@ Result<VerifyReport> verify_store(Medium& medium, const std::string& path, Funct
     const std::unique_ptr<Catalogue> catalogue = TRY(read_catalogue(medium, path));
     const ReadingDesk desk = TRY(ReadingDesk::make());
     VerifyReport report = TRY(verify_folders(medium, *catalogue, desk, Verify::kOnly, found, progress));
-    // The rows were then made of the folders.
+    // The rows were then made of the folders. A copy has none, and no room for what is being written.
     const auto opened = Catalogue::open(path, Catalogue::Access::kRead);
-    if (!opened.ok() && opened.status().fault() == Fault::kBadData) {
+    const bool is_missed = opened.status().fault() == Fault::kNoInput && is_there(medium, kIncoming);
+    if (opened.status().fault() == Fault::kBadData || is_missed) {
         ++report.findings;
         found({Finding::Kind::kCatalogue, 0, Store::kCatalogueName, opened.status().message(), false});
     }

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,9 +31,18 @@ private:
     bool repairs() const { return how_ == Verify::kAndRepair; }
     void find(Kind kind, std::int64_t sequence, const StorePath& path, const char* sentence, bool mended = false);
     Status look_at_root();
-    Status list_day(const StorePath& day);
-    /// Whether the folder is as it was stored.
-    Result<bool> check_folder(const StorePath& folder, const SnapshotName& name);
+    void list_day(const StorePath& day);
+    enum class State
+    {
+        kWhole,
+        kDamaged,
+        kUnreadable, ///< nobody can say: nothing is moved
+    };
+    Result<State> check_folder(const StorePath& folder, const SnapshotName& name);
+    /// What is wrong with a file, and what follows for its folder.
+    State judge(const Status& status, std::int64_t sequence, const StorePath& path);
+    /// All folders that bear one number: one of them is the snapshot.
+    Status check_number(std::span<const SnapshotName> names);
     /// A damaged mark is named, and written anew if the catalogue remembers the pull.
     Status check_pulled(const StorePath& folder, const SlotRow& row);
     Status look_for_strangers(const StorePath& folder, const SnapshotName& name, const Sums& sums);
@@ -49,6 +58,7 @@ private:
     FunctionRef<void(const Finding&)> found_;
     VerifyReport report_;
     std::vector<SnapshotName> names_; ///< ascending
+    bool all_listed_ = true;
 };
 
 void Verifier::find(Kind kind, std::int64_t sequence, const StorePath& path, const char* sentence, bool mended)
@@ -87,14 +97,14 @@ Status Verifier::look_at_root()
                              }),
                 "", "listing it"));
     for (const std::string& day : days)
-        TRY(list_day(day.c_str()));
+        list_day(day.c_str());
     std::sort(names_.begin(), names_.end(), [](const SnapshotName& a, const SnapshotName& b) {
         return a.sequence != b.sequence ? a.sequence < b.sequence : a.began_us < b.began_us;
     });
     return {};
 }
 
-Status Verifier::list_day(const StorePath& day)
+void Verifier::list_day(const StorePath& day)
 {
     const Errno listed = medium_.list(day.c_str(), [&](const MediumEntry& entry) {
         const auto name = parse_snapshot_name(entry.name);
@@ -104,56 +114,79 @@ Status Verifier::list_day(const StorePath& day)
             find(Kind::kStranger, 0, join(day.view(), entry.name), "dicot did not make it");
         return true;
     });
-    return on_card(listed, day.c_str(), "listing it");
+    if (listed.ok())
+        return;
+    all_listed_ = false;
+    find(Kind::kDamaged, 0, day, on_card(listed, day.c_str(), "listing it").message());
 }
 
-Result<bool> Verifier::check_folder(const StorePath& folder, const SnapshotName& name)
+Verifier::State Verifier::judge(const Status& status, std::int64_t sequence, const StorePath& path)
+{
+    find(status.fault() == Fault::kNoInput ? Kind::kMissing : Kind::kDamaged, sequence, path, status.message());
+    return is_damage(status) ? State::kDamaged : State::kUnreadable;
+}
+
+Result<Verifier::State> Verifier::check_folder(const StorePath& folder, const SnapshotName& name)
 {
     const Result<ReadSums> read = read_sums(medium_, folder);
     const StorePath sums_path = join(folder.view(), kSums);
-    if (!read.ok()) {
-        const bool there = is_there(medium_, sums_path.c_str());
-        find(there ? Kind::kDamaged : Kind::kMissing, name.sequence, sums_path,
-             there ? read.status().message() : "it is not there");
-        return false;
-    }
+    if (!read.ok())
+        return judge(read.status(), name.sequence, sums_path);
     const ReadSums& sums = read.value();
     const std::optional<SlotRow> row = TRY(catalogue_.find(name.sequence));
     // A digest, or a name, that does not fit may be wrong itself: then the catalogue has another digest of SHA256SUMS.
-    const bool sums_differ = row && !row->sums.empty() && row->sums != sums.sha256;
-    bool whole = true;
+    const bool sums_differ = row && row->began_us == name.began_us && !row->sums.empty() && row->sums != sums.sha256;
+    State state = State::kWhole;
     for (const Sum& sum : sums.sums.all()) {
         const Status status = check_file(medium_, folder, sum, desk_, report_.bytes);
         if (status.ok())
             continue;
-        whole = false;
-        if (sums_differ) {
+        if (sums_differ && is_damage(status)) {
             find(Kind::kDamaged, name.sequence, sums_path, "its bytes are not those that were stored");
-            return false;
+            return State::kDamaged;
         }
-        const StorePath path = join(folder.view(), sum.name.view());
-        const bool there = is_there(medium_, path.c_str());
-        find(there ? Kind::kDamaged : Kind::kMissing, name.sequence, path,
-             there ? status.message() : "it is not there");
+        state = std::max(state, judge(status, name.sequence, join(folder.view(), sum.name.view())));
     }
-    if (whole) {
-        const Result<SlotRow> facts = row_of(medium_, folder, name, desk_);
-        whole = facts.ok();
-        if (!whole)
-            find(Kind::kDamaged, name.sequence, join(folder.view(), kRecord), facts.status().message());
-    }
+    if (state == State::kWhole)
+        if (const Result<SlotRow> facts = row_of(medium_, folder, name, desk_); !facts.ok())
+            state = judge(facts.status(), name.sequence, join(folder.view(), kRecord));
     TRY(look_for_strangers(folder, name, sums.sums));
-    return whole;
+    return state;
+}
+
+Status Verifier::check_number(std::span<const SnapshotName> names)
+{
+    const std::optional<SlotRow> row = TRY(catalogue_.find(names[0].sequence));
+    std::vector<State> states;
+    std::optional<std::size_t> snapshot;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        ++report_.folders;
+        states.push_back(TRY(check_folder(folder_of(row_named(names[i])), names[i])));
+        const bool is_the_rows = row && row->began_us == names[i].began_us;
+        if (states[i] == State::kWhole && (!snapshot || is_the_rows))
+            snapshot = i;
+    }
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const StorePath folder = folder_of(row_named(names[i]));
+        if (snapshot == i) {
+            TRY(compare_row(folder, names[i]));
+            continue;
+        }
+        if (states[i] == State::kWhole)
+            find(Kind::kDamaged, names[i].sequence, folder, "another folder has its number");
+        if (repairs() && states[i] != State::kUnreadable)
+            TRY(take_away(folder, names[i]));
+    }
+    return {};
 }
 
 Status Verifier::check_pulled(const StorePath& folder, const SlotRow& row)
 {
     const StorePath path = join(folder.view(), kPulledMark);
-    if (repairs()) {
-        TRY(on_card(medium_.remove_file(path.c_str()), path.c_str(), "removing it"));
+    const bool mended = repairs() && medium_.remove_file(path.c_str()).ok();
+    if (mended)
         TRY(restore_mark(medium_, row));
-    }
-    find(Kind::kDamaged, row.sequence, path, "the mark of a pull is damaged", repairs());
+    find(Kind::kDamaged, row.sequence, path, "the mark of a pull is damaged", mended);
     return {};
 }
 
@@ -253,27 +286,22 @@ Result<VerifyReport> Verifier::run(FunctionRef<void(int, int)> progress)
     if (const Status sound = catalogue_.check(); !sound.ok())
         find(Kind::kCatalogue, 0, Store::kCatalogueName, sound.message());
     TRY(look_at_root());
-    const auto all = static_cast<int>(names_.size());
-    std::int64_t before = 0;
-    for (int i = 0; i < all; ++i) {
-        progress(i, all);
-        const SnapshotName& name = names_[static_cast<std::size_t>(i)];
-        const StorePath folder = folder_of(name.sequence, name.began_us).view();
-        if (!is_there(medium_, folder.c_str())) // pruned meanwhile
+    const std::size_t all = names_.size();
+    for (std::size_t i = 0, next = 0; i < all; i = next) {
+        progress(static_cast<int>(i), static_cast<int>(all));
+        for (next = i; next < all && names_[next].sequence == names_[i].sequence; ++next)
+            ;
+        if (!is_there(medium_, folder_of(row_named(names_[i])).c_str())) // pruned meanwhile
             continue;
-        ++report_.folders;
-        const bool twice = name.sequence == before;
-        before = name.sequence;
-        if (twice)
-            find(Kind::kDamaged, name.sequence, folder, "an earlier folder has its number");
-        const bool whole = TRY(check_folder(folder, name));
-        if (whole && !twice)
-            TRY(compare_row(folder, name));
-        else if (repairs())
-            TRY(take_away(folder, name));
+        if (const Status status = check_number(std::span(names_).subspan(i, next - i)); !status.ok()) {
+            if (status.fault() != Fault::kIoError)
+                return status;
+            find(Kind::kDamaged, names_[i].sequence, folder_of(row_named(names_[i])), status.message());
+        }
     }
-    progress(all, all);
-    TRY(look_for_lost());
+    progress(static_cast<int>(all), static_cast<int>(all));
+    if (all_listed_) // of a day that cannot be listed nothing is known to be lost
+        TRY(look_for_lost());
     TRY(look_for_left_overs());
     if (repairs())
         TRY(catalogue_.sync());

@@ -14,7 +14,7 @@ snap() { # driver, window
 equals() { # driver, window
     snap "$1" "$2" || return
     grep '"outcome": "done"' snap.log && grep '"source": "cameras"' snap.log || return
-    [ "$(grep -c "\"driver\": \"$1\"" snap.log)" = 2 ] || return
+    [ "$(grep -c "\"driver\": \"$1\"" snap.log)" = 3 ] || return # both cameras', and the configuration's
     dicot export "shots/board/$(folder)/cloud.drc" -o cloud.ply || return
     sh /vm/points.sh cloud.ply | cmp - "/files/$1.points"
 }

@@ -1,5 +1,5 @@
-# A store on file systems of the kernel: runs in the virtual machine. /dev/vdb and /dev/vdc are logged, vdd is small, vde blank.
-#expect kept.writes careless.writes
+# A store on file systems of the kernel: runs in the virtual machine. /dev/vdb to /dev/vdd are logged, vde is small, vdf blank.
+#expect kept.writes careless.writes nameless.writes
 #expect full.becomes_a_miss full.nothing_torn full.works_again
 #expect readonly.from_the_start readonly.in_the_middle readonly.reads readonly.works_again
 #expect fat.mounts fat.writes fat.full_is_a_miss fat.survives_a_remount
@@ -20,7 +20,8 @@ fill() { # disk, words
     return $result
 }
 judge kept.writes fill /dev/vdb
-judge careless.writes fill /dev/vdc --careless
+judge careless.writes fill /dev/vdc --careless all
+judge nameless.writes fill /dev/vdd --careless names
 
 says() { # exit code, lines that have to be there, "--", command
     wanted=$1 lines=''
@@ -43,7 +44,7 @@ whole() { says 0 'findings 0$' -- store_state card/store; }
 
 # --- a disk that another file fills to its last block
 
-mount -t ext4 /dev/vdd card
+mount -t ext4 /dev/vde card
 full() {
     store_writer --seed 7 --count 6 --reserve 65536 card/store || return
     cat /dev/zero >card/greedy 2>/dev/null
@@ -73,18 +74,22 @@ turned() {
     [ $code = 74 ] && tail -n 1 writer.log | grep '^failed 74 .*read-only'
 }
 judge readonly.in_the_middle turned
-reads() { says 0 '^row 1 ' '^row 20 ' 'findings 0$' -- store_state --read card/store; }
+# What was being written stands in incoming/ and is found, if the disk turned there.
+reads() {
+    says 0 '^row 1 ' '^row 20 ' '^verified' -- store_state --read card/store &&
+        ! grep '^finding' said | grep -v ' left incoming/.*an interruption left it'
+}
 grep '^done' writer.log | tail -n 1 | cut -d' ' -f2-3 >newest
 newest() { reads && read -r sequence sums <newest && grep "^row $sequence done here kept $sums" said; }
 judge readonly.reads newest
 umount card
-mount -o ro /dev/vdd card
+mount -o ro /dev/vde card
 refused() {
     says 74 '^failed 74 .*[Rr]ead-only' -- store_writer --seed 7 --first 500 card/store && newest
 }
 judge readonly.from_the_start refused
 umount card
-mount /dev/vdd card
+mount /dev/vde card
 rw_again() {
     says 0 '^done ' -- store_writer --seed 7 --first 500 --count 4 --reserve 65536 card/store && whole
 }
@@ -93,7 +98,7 @@ umount card
 
 # --- vfat, which has no journal: no power is cut here
 
-judge fat.mounts eval 'mkdosfs /dev/vde && mount -t vfat /dev/vde card && mkdir card/store'
+judge fat.mounts eval 'mkdosfs /dev/vdf && mount -t vfat /dev/vdf card && mkdir card/store'
 judge fat.writes says 0 '^done 20 ' -- store_writer --seed 9 --count 20 --reserve 65536 card/store
 fat_full() {
     cat /dev/zero >card/greedy 2>/dev/null
@@ -101,5 +106,5 @@ fat_full() {
 }
 judge fat.full_is_a_miss fat_full
 umount card
-judge fat.survives_a_remount eval 'mount -t vfat /dev/vde card && whole'
+judge fat.survives_a_remount eval 'mount -t vfat /dev/vdf card && whole'
 umount card

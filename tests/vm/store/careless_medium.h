@@ -1,4 +1,4 @@
-// A card whose syncs do nothing: what a store on it acknowledges need not be there after the next power cut.
+// A card whose syncs do nothing, or those of folders alone: what a store on it acknowledges need not outlive the power.
 #pragma once
 
 #include "dicot/medium/medium.h"
@@ -8,7 +8,7 @@ namespace dicot {
 class CarelessMedium final : public Medium
 {
 public:
-    explicit CarelessMedium(Medium& card) : card_(card) {}
+    CarelessMedium(Medium& card, bool syncs_files) : card_(card), syncs_files_(syncs_files) {}
 
     Errno make_folder(const char* path) override { return card_.make_folder(path); }
     Errno rename(const char* from, const char* to) override { return card_.rename(from, to); }
@@ -27,7 +27,7 @@ public:
     }
     Errno read(File file, std::span<std::byte> into, std::size_t& got) override { return card_.read(file, into, got); }
     Errno close(File file) override { return card_.close(file); }
-    Errno sync_all() override { return {}; }
+    Errno sync_all() override { return syncs_files_ ? card_.sync_all() : Errno{}; }
     Errno sync_folder(const char*) override { return {}; }
     Errno space(MediumSpace& space) override { return card_.space(space); }
     Errno lock() override { return card_.lock(); }
@@ -35,6 +35,7 @@ public:
 
 private:
     Medium& card_;
+    bool syncs_files_;
 };
 
 } // namespace dicot

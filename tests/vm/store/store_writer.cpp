@@ -6,7 +6,7 @@
 //   --first N           number of the first slot (1)
 //   --count N           how many slots (1)
 //   --marks DEVICE@BYTE after each acknowledgement a mark on this disk from this byte on
-//   --careless          the card's syncs do nothing
+//   --careless all|names  the card's syncs do nothing; or those of folders alone
 //   --reserve BYTES     left free on the card (1 MiB)
 //   --housekeeping      in between snapshots are pulled, and pulled ones pruned
 //
@@ -47,8 +47,8 @@ struct Words
 {
     std::uint64_t seed = 1;
     int first = 1, count = 1;
-    std::string marks, folder;
-    bool careless = false, housekeeping = false;
+    std::string marks, folder, careless;
+    bool housekeeping = false;
     StoreRules rules{.reserve_bytes = std::uint64_t{1} << 20, .prune = Prune::kPulled};
 };
 
@@ -209,8 +209,8 @@ private:
 Status run(const Words& words)
 {
     const std::unique_ptr<Medium> disk = TRY(open_disk_medium(words.folder));
-    CarelessMedium careless{*disk};
-    Medium& card = words.careless ? static_cast<Medium&>(careless) : *disk;
+    CarelessMedium careless{*disk, words.careless == "names"};
+    Medium& card = words.careless.empty() ? *disk : static_cast<Medium&>(careless);
     std::optional<Marks> marks;
     if (const std::size_t at = words.marks.find('@'); at != std::string::npos)
         marks.emplace(TRY(Marks::open(words.marks.substr(0, at).c_str(), std::atoll(words.marks.c_str() + at + 1))));
@@ -224,9 +224,7 @@ bool read_words(int count, char** word, Words& words)
     for (int at = 1; at < count; ++at) {
         const std::string name = word[at];
         const char* value = at + 1 < count ? word[at + 1] : "";
-        if (name == "--careless")
-            words.careless = true;
-        else if (name == "--housekeeping")
+        if (name == "--housekeeping")
             words.housekeeping = true;
         else if (name.rfind("--", 0) != 0)
             words.folder = name;
@@ -238,6 +236,8 @@ bool read_words(int count, char** word, Words& words)
                 words.first = std::atoi(value);
             else if (name == "--count")
                 words.count = std::atoi(value);
+            else if (name == "--careless")
+                words.careless = value;
             else if (name == "--marks")
                 words.marks = value;
             else if (name == "--reserve")

@@ -22,6 +22,8 @@ enum class Kept
     kLost = 3,        ///< somebody else took it away
 };
 
+inline constexpr std::int64_t kMaxSlotBytes = std::int64_t{1} << 40;
+
 struct SlotRow
 {
     std::int64_t sequence = 0;          ///< from 1
@@ -31,8 +33,8 @@ struct SlotRow
     ShortText<255> reason;              ///< of a miss
     ShortText<31> clock_trust;
     std::int64_t points = 0;
-    std::int64_t bytes = 0;                ///< of all files in the folder, without the mark of a pull
-    ShortText<64> sums;                    ///< SHA-256 of SHA256SUMS, hexadecimal: names everything in the folder
+    std::int64_t bytes = 0; ///< of all files in the folder, without the mark of a pull; kMaxSlotBytes at most
+    ShortText<64> sums;     ///< SHA-256 of SHA256SUMS, hexadecimal: names everything in the folder
     std::optional<std::int64_t> pulled_us; ///< when a host had it, verified
     Kept kept = Kept::kHere;
 
