@@ -132,7 +132,7 @@ Status list_as_text(const DeviceFolder& device, const StoreRules& rules, const S
     if (rows < summary.totals.slots)
         std::printf("%s shown; in all ", counted(rows, "slot").c_str());
     print(summary);
-    return {};
+    return all_days_told(device.path);
 }
 
 /// What stands in a board's object behind its path, one line a slot.
@@ -148,7 +148,7 @@ Status list_as_json(const DeviceFolder& device, const StoreRules& rules, const S
         return std::ferror(stdout) == 0;
     });
     std::printf("]");
-    return listed;
+    return listed.ok() ? all_days_told(device.path) : listed;
 }
 
 Status run(const Words& words)

@@ -54,11 +54,13 @@ Result<FoundSlot> find_slot(const FoundStores& found, std::int64_t sequence, Sto
     for (const DeviceFolder& device : found.devices) {
         outcome.add(in_store(device.path, [&]() -> Status {
             const ReadStore store = TRY(ReadStore::open(device.path));
-            if (const std::optional<SlotRow> row = TRY(store.catalogue->find(sequence)))
+            if (const std::optional<SlotRow> row = TRY(store.catalogue->find(sequence))) {
                 slots.push_back({device, *row});
-            else if (const std::string names = TRY(neighbours(*store.catalogue, sequence)); !names.empty())
+                return {};
+            }
+            if (const std::string names = TRY(neighbours(*store.catalogue, sequence)); !names.empty())
                 near += (near.empty() ? "" : "; ") + shown(device.device) + " has " + names;
-            return {};
+            return all_days_told(device.path);
         }()));
     }
     if (slots.size() == 1)

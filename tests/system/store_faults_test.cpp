@@ -58,6 +58,29 @@ TEST_F(StoreFaults, ABoardThatCannotBeReadIsNamedAndTheOthersAreShown)
     fs::permissions(root + "/lost+found", fs::perms::owner_all);
 }
 
+TEST_F(StoreFaults, WithoutACatalogueAFolderThatCannotBeReadIsNamedAndTheOthersAreListed)
+{
+    DICOT_NEED_TOOL("setpriv", "util-linux");
+    const std::string root = copy();
+    for (const char* end : {"", "-wal", "-shm"})
+        fs::remove(root + "/bench/" + Store::kCatalogueName + end);
+    EXPECT_EQ(ask("list", root).exit_code, 0);
+    const fs::path closed = snapshots(root).front();
+    ASSERT_EQ(test::run("chmod -R a=rX " + root + " && chmod 0 " + closed.string()).exit_code, 0);
+    EXPECT_THAT(ask_bound("list", root).output,
+                AllOf(HasSubstr("3 slots: 1 done, 2 missed"), HasSubstr("its record cannot be read")));
+    EXPECT_THAT(ask_bound("show 1", root).output, AllOf(HasSubstr(root + "/bench"), HasSubstr("no permission")));
+    EXPECT_EQ(ask_bound("show 3", root).exit_code, 0);
+    fs::permissions(closed, fs::perms::owner_all);
+    (void)test::run("chmod 0 " + closed.parent_path().string());
+    for (const char* command : {"list", "list --json", "show 1"}) {
+        const ToolRun run = ask_bound(command, root);
+        EXPECT_EQ(run.exit_code, 74) << command << run.output;
+        EXPECT_THAT(run.output, HasSubstr(closed.parent_path().string() + ": it cannot be read")) << command;
+    }
+    ASSERT_EQ(test::run("chmod -R u+rwX " + root).exit_code, 0);
+}
+
 TEST_F(StoreFaults, VerifyGoesOnToTheNextBoardAndSaysWhatItFound)
 {
     const std::string root = two_boards();

@@ -154,6 +154,24 @@ Result<ReadStore> ReadStore::open(const std::string& path)
     return read;
 }
 
+Status all_days_told(const std::string& path)
+{
+    if (Catalogue::open(path + "/" + Store::kCatalogueName, Catalogue::Access::kRead).ok())
+        return {};
+    std::error_code error;
+    for (fs::directory_iterator entry(path, error); !error && entry != fs::directory_iterator{};
+         entry.increment(error)) {
+        std::error_code closed;
+        if (is_day(entry->path().filename().string()) && is_folder(*entry))
+            (void)fs::directory_iterator(entry->path(), closed);
+        if (closed)
+            return failure(Fault::kIoError,
+                           "%s: it cannot be read (%s), and there is no catalogue: its slots are not told",
+                           shown(entry->path().string()).c_str(), closed.message().c_str());
+    }
+    return {};
+}
+
 Result<WrittenStore> WrittenStore::open(const std::string& path, const StoreRules& rules)
 {
     WrittenStore written;

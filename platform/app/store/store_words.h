@@ -66,6 +66,10 @@ struct ReadStore
     static Result<ReadStore> open(const std::string& path);
 };
 
+/// Whether a ReadStore of this folder knows all of its days: without a catalogue, a day that cannot be read is not
+/// told. Fault::kIoError: there is one.
+Status all_days_told(const std::string& path);
+
 /// A store that is written to.
 struct WrittenStore
 {
