@@ -13,8 +13,9 @@ for object in "$@"; do
         *) continue ;;
     esac
     seen=$((seen + 1))
-    # DW.ref: a pointer to the exception handler of the C++ library, which sanitized builds carry. It is no code.
-    if "$nm" "$object" | grep -E ' [WVuwv] ' | grep -vF ' DW.ref.'; then
+    # What sanitized builds carry and is no code: a pointer to the exception handler of the C++ library (DW.ref), and the
+    # types of functions that are called through pointers (_ZTIF).
+    if "$nm" "$object" | grep -E ' [WVuwv] ' | grep -vE ' (DW\.ref\.|_ZTIF)'; then
         echo "$object holds the symbols above, which the linker may take for the whole program" >&2
         exit 1
     fi
