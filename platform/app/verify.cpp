@@ -42,19 +42,11 @@ const char* name_of(Finding::Kind kind) noexcept
     return "left over";
 }
 
-/// A damaged snapshot is not made whole, but a repair moves it out of the way.
-bool is_dealt_with(const Finding& finding, bool repair) noexcept
-{
-    return finding.mended || (repair && finding.sequence > 0 &&
-                              (finding.kind == Finding::Kind::kDamaged || finding.kind == Finding::Kind::kMissing));
-}
-
 /// What is lost or wrong as long as nobody deals with it.
-bool is_damage(const Finding& finding, bool repair) noexcept
+bool is_damage(const Finding& finding) noexcept
 {
-    return !is_dealt_with(finding, repair) &&
-           (finding.kind == Finding::Kind::kDamaged || finding.kind == Finding::Kind::kMissing ||
-            finding.kind == Finding::Kind::kCatalogue);
+    return !finding.mended && (finding.kind == Finding::Kind::kDamaged || finding.kind == Finding::Kind::kMissing ||
+                               finding.kind == Finding::Kind::kCatalogue);
 }
 
 struct Verified
@@ -66,10 +58,10 @@ struct Verified
     int dealt_with = 0;
 };
 
-void print(const DeviceFolder& device, const Finding& finding, bool repair)
+void print(const DeviceFolder& device, const Finding& finding)
 {
     std::printf("%s/%s: %s: %s%s\n", shown(device.path).c_str(), shown(finding.path).c_str(), name_of(finding.kind),
-                shown(finding.sentence).c_str(), is_dealt_with(finding, repair) ? " (dealt with)" : "");
+                shown(finding.sentence).c_str(), finding.mended ? " (dealt with)" : "");
     std::fflush(stdout);
 }
 
@@ -78,11 +70,11 @@ Status verify(const Words& words, const DeviceFolder& device, const StoreRules& 
 {
     Progress bar("verifying");
     const auto found = [&](const Finding& finding) {
-        verified.dealt_with += is_dealt_with(finding, words.repair) ? 1 : 0;
-        verified.damage += is_damage(finding, words.repair) ? 1 : 0;
+        verified.dealt_with += finding.mended ? 1 : 0;
+        verified.damage += is_damage(finding) ? 1 : 0;
         if (!words.json) { // printed at once: the card may fail before the end
             bar.wipe();
-            print(device, finding, words.repair);
+            print(device, finding);
             return;
         }
         verified.findings.push_back(
@@ -90,7 +82,7 @@ Status verify(const Words& words, const DeviceFolder& device, const StoreRules& 
              {"sequence", finding.sequence > 0 ? nlohmann::json(finding.sequence) : nlohmann::json()},
              {"path", finding.path},
              {"sentence", finding.sentence},
-             {"dealt_with", is_dealt_with(finding, words.repair)}});
+             {"dealt_with", finding.mended}});
     };
     const auto progress = [&bar](int done, int all) { bar.done(done, all); };
     if (words.repair) {

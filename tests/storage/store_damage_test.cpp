@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <limits>
+#include <utility>
 
 namespace dicot::test {
 namespace {
@@ -144,6 +146,60 @@ TEST_F(DamagedStore, APullThatOnlyTheCatalogueClaimsDeletesNothing)
     ASSERT_TRUE(report.ok());
     EXPECT_EQ(report.value().removed, 0);
     EXPECT_TRUE(is_at(std::string(kFirst) + "/cloud.drc"));
+}
+
+/// A card that will not open one file.
+class ClosedFile final : public Medium
+{
+public:
+    ClosedFile(Medium& card, std::string path, int error) : card_(card), path_(std::move(path)), error_(error) {}
+
+    Errno make_folder(const char* path) override { return card_.make_folder(path); }
+    Errno rename(const char* from, const char* to) override { return card_.rename(from, to); }
+    Errno remove_file(const char* path) override { return card_.remove_file(path); }
+    Errno remove_folder(const char* path) override { return card_.remove_folder(path); }
+    Errno kind_of(const char* path, EntryKind& kind) override { return card_.kind_of(path, kind); }
+    Errno list(const char* path, FunctionRef<bool(const MediumEntry&)> visit) override
+    {
+        return card_.list(path, visit);
+    }
+    Errno create(const char* path, File& file) override { return card_.create(path, file); }
+    Errno write(File file, std::span<const std::byte> bytes) override { return card_.write(file, bytes); }
+    Errno open(const char* path, File& file, std::uint64_t& size) override
+    {
+        return path == path_ ? Errno{error_} : card_.open(path, file, size);
+    }
+    Errno read(File file, std::span<std::byte> into, std::size_t& got) override { return card_.read(file, into, got); }
+    Errno close(File file) override { return card_.close(file); }
+    Errno sync_all() override { return card_.sync_all(); }
+    Errno sync_folder(const char* path) override { return card_.sync_folder(path); }
+    Errno space(MediumSpace& space) override { return card_.space(space); }
+    Errno lock() override { return card_.lock(); }
+    void unlock() override { card_.unlock(); }
+
+private:
+    Medium& card_;
+    std::string path_;
+    int error_;
+};
+
+TEST_F(DamagedStore, WhatCannotBeReadIsNamedAndNotMoved)
+{
+    for (const char* const file : {"/cloud.drc", "/SHA256SUMS", "/record.json"})
+        for (const int error : {EACCES, EIO, EMFILE}) {
+            const auto card = open_disk_medium(root()).value();
+            ClosedFile closed(*card, kFirst + std::string(file), error);
+            auto store = Store::open(closed, kGreedy, catalogue_path()).value();
+            int mended = 0;
+            const auto report = store->verify(
+                true, [&](const Finding& finding) { mended += finding.mended ? 1 : 0; }, [](int, int) {});
+            ASSERT_TRUE(report.ok()) << report.status().message();
+            EXPECT_GT(report.value().findings, 0) << file << ", " << error;
+            EXPECT_EQ(mended, 0) << file << ", " << error;
+            EXPECT_TRUE(is_at(std::string(kFirst) + "/cloud.drc")) << file << ", " << error;
+        }
+    open(kGreedy);
+    EXPECT_EQ(verify().findings, 0);
 }
 
 TEST_F(DamagedStore, AnOlderCatalogueGivesNoNumberTwice)

@@ -122,7 +122,9 @@ void Verifier::list_day(const StorePath& day)
 
 Verifier::State Verifier::judge(const Status& status, std::int64_t sequence, const StorePath& path)
 {
-    find(status.fault() == Fault::kNoInput ? Kind::kMissing : Kind::kDamaged, sequence, path, status.message());
+    const bool is_moved = repairs() && is_damage(status);
+    find(status.fault() == Fault::kNoInput ? Kind::kMissing : Kind::kDamaged, sequence, path, status.message(),
+         is_moved);
     return is_damage(status) ? State::kDamaged : State::kUnreadable;
 }
 
@@ -142,7 +144,7 @@ Result<Verifier::State> Verifier::check_folder(const StorePath& folder, const Sn
         if (status.ok())
             continue;
         if (sums_differ && is_damage(status)) {
-            find(Kind::kDamaged, name.sequence, sums_path, "its bytes are not those that were stored");
+            find(Kind::kDamaged, name.sequence, sums_path, "its bytes are not those that were stored", repairs());
             return State::kDamaged;
         }
         state = std::max(state, judge(status, name.sequence, join(folder.view(), sum.name.view())));
@@ -173,7 +175,7 @@ Status Verifier::check_number(std::span<const SnapshotName> names)
             continue;
         }
         if (states[i] == State::kWhole)
-            find(Kind::kDamaged, names[i].sequence, folder, "another folder has its number");
+            find(Kind::kDamaged, names[i].sequence, folder, "another folder has its number", repairs());
         if (repairs() && states[i] != State::kUnreadable)
             TRY(take_away(folder, names[i]));
     }
@@ -222,8 +224,7 @@ Status Verifier::compare_row(const StorePath& folder, const SnapshotName& name)
 Status Verifier::take_away(const StorePath& folder, const SnapshotName& name)
 {
     TRY(quarantine(medium_, folder));
-    TRY(on_card(medium_.sync_all(), kQuarantine, "syncing")); // before its day goes
-    ++report_.mended;
+    TRY(on_card(medium_.sync_all(), kQuarantine, "syncing"));    // before its day goes
     (void)medium_.remove_folder(utc_day(name.began_us).c_str()); // if it was the last one of its day
     std::optional<SlotRow> row = TRY(catalogue_.find(name.sequence));
     if (row && row->began_us != name.began_us)

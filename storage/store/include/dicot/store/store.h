@@ -80,7 +80,7 @@ struct Finding
     std::int64_t sequence; ///< 0: of none
     const char* path;      ///< from the store's folder
     const char* sentence;  ///< what is wrong
-    bool mended;           ///< by repair
+    bool mended;           ///< by repair, which moves a damaged folder to quarantine
 };
 
 struct VerifyReport
