@@ -11,11 +11,10 @@ namespace dicot {
 class ByteSink
 {
 public:
+    virtual ~ByteSink() = default;
+
     /// All of them, or the Status that says why not; after a failure nothing more is to be written.
     virtual Status write(std::span<const std::byte> bytes) noexcept = 0;
-
-protected:
-    ~ByteSink() = default;
 };
 
 } // namespace dicot
