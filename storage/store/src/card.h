@@ -32,7 +32,7 @@ public:
     explicit CardFile(Medium& medium) : medium_(medium) {}
     CardFile(const CardFile&) = delete;
     CardFile& operator=(const CardFile&) = delete;
-    ~CardFile();
+    ~CardFile() override;
 
     Status create(const StorePath& path);
     Status write(std::span<const std::byte> bytes) noexcept override;

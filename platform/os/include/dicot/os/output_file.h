@@ -23,7 +23,7 @@ public:
     OutputFile() noexcept = default;
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
-    ~OutputFile();
+    ~OutputFile() override;
 
     /// Opens the part file. Fault::kCannotCreate: no such folder, no permission, the target is a folder or a disk.
     Status open(const char* path) noexcept;
