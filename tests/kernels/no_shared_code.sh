@@ -14,8 +14,8 @@ for object in "$@"; do
     esac
     seen=$((seen + 1))
     # What sanitized builds carry and is no code: a pointer to the exception handler of the C++ library (DW.ref), and the
-    # types of functions that are called through pointers (_ZTIF).
-    if "$nm" "$object" | grep -E ' [WVuwv] ' | grep -vE ' (DW\.ref\.|_ZTIF)'; then
+    # types of functions that are called through pointers (_ZTI, _ZTS).
+    if "$nm" "$object" | grep -E ' [WVuwv] ' | grep -vE ' (DW\.ref\.|_ZT[IS]F)'; then
         echo "$object holds the symbols above, which the linker may take for the whole program" >&2
         exit 1
     fi
