@@ -1,4 +1,5 @@
 // No single damage stops a store for good, and repair costs nothing that is whole.
+#include "passing_medium.h"
 #include "store_scene.h"
 
 #include <gtest/gtest.h>
@@ -149,36 +150,19 @@ TEST_F(DamagedStore, APullThatOnlyTheCatalogueClaimsDeletesNothing)
 }
 
 /// A card that will not open one file.
-class ClosedFile final : public Medium
+class ClosedFile final : public PassingMedium
 {
 public:
-    ClosedFile(Medium& card, std::string path, int error) : card_(card), path_(std::move(path)), error_(error) {}
+    ClosedFile(Medium& card, std::string path, int error) : PassingMedium(card), path_(std::move(path)), error_(error)
+    {
+    }
 
-    Errno make_folder(const char* path) override { return card_.make_folder(path); }
-    Errno rename(const char* from, const char* to) override { return card_.rename(from, to); }
-    Errno remove_file(const char* path) override { return card_.remove_file(path); }
-    Errno remove_folder(const char* path) override { return card_.remove_folder(path); }
-    Errno kind_of(const char* path, EntryKind& kind) override { return card_.kind_of(path, kind); }
-    Errno list(const char* path, FunctionRef<bool(const MediumEntry&)> visit) override
+    Errno open(const char* path, File& file, std::uint64_t& size_bytes) override
     {
-        return card_.list(path, visit);
+        return path == path_ ? Errno{error_} : PassingMedium::open(path, file, size_bytes);
     }
-    Errno create(const char* path, File& file) override { return card_.create(path, file); }
-    Errno write(File file, std::span<const std::byte> bytes) override { return card_.write(file, bytes); }
-    Errno open(const char* path, File& file, std::uint64_t& size) override
-    {
-        return path == path_ ? Errno{error_} : card_.open(path, file, size);
-    }
-    Errno read(File file, std::span<std::byte> into, std::size_t& got) override { return card_.read(file, into, got); }
-    Errno close(File file) override { return card_.close(file); }
-    Errno sync_all() override { return card_.sync_all(); }
-    Errno sync_folder(const char* path) override { return card_.sync_folder(path); }
-    Errno space(MediumSpace& space) override { return card_.space(space); }
-    Errno lock() override { return card_.lock(); }
-    void unlock() override { card_.unlock(); }
 
 private:
-    Medium& card_;
     std::string path_;
     int error_;
 };

@@ -42,7 +42,6 @@ public:
     Result<SlotPace> pace() override;
     Status begin() override { return database_.run("BEGIN IMMEDIATE"); }
     Status commit() override;
-    Status clear() override { return database_.run("DELETE FROM slot"); }
     Status sync() override;
     Status check() override;
 

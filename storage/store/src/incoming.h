@@ -45,9 +45,9 @@ private:
     Status sync_day();
     void move_back();
 
-    Medium& medium_;
     void name_it(const SnapshotName& name);
 
+    Medium& medium_;
     bool begun_ = false;
     bool whole_ = false;
     StorePath part_, day_, target_;

@@ -3,6 +3,7 @@
 
 #include "dicot/base/short_text.h"
 #include "dicot/base/status.h"
+#include "dicot/store/store.h"
 
 #include <array>
 #include <cstddef>
@@ -12,7 +13,7 @@
 
 namespace dicot {
 
-inline constexpr int kMaxSums = 8; ///< files in a snapshot, SHA256SUMS not counted
+inline constexpr int kMaxSums = Store::kMaxFiles; ///< files in a snapshot, SHA256SUMS not counted
 inline constexpr std::size_t kMaxSumsBytes = kMaxSums * (64 + 2 + 31 + 1);
 
 struct Sum

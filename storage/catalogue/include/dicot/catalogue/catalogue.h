@@ -98,7 +98,6 @@ public:
     /// Between them, all rows or none; faster for many rows.
     virtual Status begin() = 0;
     virtual Status commit() = 0;
-    virtual Status clear() = 0; ///< no row
     /// What was put so far outlives the power.
     virtual Status sync() = 0;
     /// SQLite's integrity_check, and every value in its range. Fault::kBadData with the first complaint.
