@@ -29,6 +29,8 @@ constexpr const char* kMethods[] = {"paper", "standard"};
 constexpr const char* kCosts[] = {"adcensus", "tad"};
 constexpr const char* kCpus[] = {"auto", "scalar", "avx2", "neon"};
 constexpr const char* kPrunes[] = {"never", "pulled", "all"};
+constexpr const char* kBetweens[] = {"idle", "suspend", "off"};
+constexpr const char* kCamerasBetween[] = {"auto", "on", "port"};
 constexpr int kMostReserveMib = 1 << 20;
 constexpr double kFarthestMm = 1'000'000; // as for calibrate
 
@@ -103,6 +105,26 @@ const ConfigKey kKeys[] = {
      ChoiceKey{reach<std::string, &Config::output, &OutputConfig::prune>(), kPrunes}},
     {"output", "keep_raw", "", "Both pictures are kept as the cameras saw them too, as PNG",
      FlagKey{reach<bool, &Config::output, &OutputConfig::keep_raw>()}},
+
+    {"power", "between", "",
+     "What the board does between two slots; off: it is powered off until the alarm of its clock",
+     ChoiceKey{reach<std::string, &Config::power, &PowerConfig::between>(), kBetweens}},
+    {"power", "cameras", "", "The cameras then; auto: the kernel suspends them, port: their USB ports are switched off",
+     ChoiceKey{reach<std::string, &Config::power, &PowerConfig::cameras>(), kCamerasBetween}},
+    {"power", "rtc", "", "The clock that runs while the board sleeps, and wakes it",
+     PathKey{reach<std::string, &Config::power, &PowerConfig::rtc>()}},
+    {"power", "least_rest_s", "s", "Shorter pauses are idled",
+     WholeKey{reach<int, &Config::power, &PowerConfig::least_rest_s>(), 5, 86'400, {}}},
+
+    {"watchdog", "device", "", "The board's own, which resets it; \"\": systemd's watchdog alone",
+     PathKey{reach<std::string, &Config::watchdog, &WatchdogConfig::device>(), true}},
+    {"watchdog", "stage_s", "s", "Bound of one stage of a slot; one that is longer is aborted, and the slot is missed",
+     WholeKey{reach<int, &Config::watchdog, &WatchdogConfig::stage_s>(), 10, 21'600, {}}},
+
+    {"run", "state", "", "Folder of what one start of dicot run leaves for the next",
+     PathKey{reach<std::string, &Config::run, &RunConfig::state>()}},
+    {"run", "lock_memory", "", "Its memory stays in RAM, where the system allows it",
+     FlagKey{reach<bool, &Config::run, &RunConfig::lock_memory>()}},
 };
 
 } // namespace
