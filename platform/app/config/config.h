@@ -4,6 +4,7 @@
 #include "dicot/base/status.h"
 #include "dicot/camera/mode.h"
 #include "dicot/matching/matcher.h"
+#include "dicot/schedule/schedule.h"
 
 #include <optional>
 #include <string>
@@ -101,6 +102,7 @@ struct Config
     RigConfig rig;
     MatchingConfig matching;
     OutputConfig output;
+    ScheduleConfig schedule;
 };
 
 /// A configuration, and where it comes from.
