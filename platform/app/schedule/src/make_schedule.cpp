@@ -38,10 +38,6 @@ std::optional<Contradiction> contradiction_in(const ScheduleConfig& words)
         return Contradiction{kEveryKeys,
                              "every is longer than from from to until, so it has no room: for one time a day "
                              "give at"};
-    if (words.every.empty() && until_s - from_s != 86'400)
-        return Contradiction{kSpanKeys,
-                             "from and until bound what is due every so often, and every is empty: give it, or "
-                             "times in at"};
     return std::nullopt;
 }
 
