@@ -1,4 +1,5 @@
 #include "dicot/base/utc_time.h"
+#include "dicot/os/heap_gate.h"
 #include "dicot/schedule/plan.h"
 
 #include <gmock/gmock.h>
@@ -163,6 +164,28 @@ TEST(Plan, AVisitorMayStopAndThePlanIsTheSame)
 TEST(Plan, AnEmptyScheduleHasNoNext)
 {
     EXPECT_EQ(plan(Schedule{}, facts("2026-06-01T00:00:00Z", "2026-06-02T00:00:00Z")).next, "");
+}
+
+TEST(Plan, TakesNothingFromTheHeap)
+{
+    if (!heap_gate::replaces_operator_new())
+        GTEST_SKIP() << "the sanitizer has its own operator new";
+    ScheduleConfig words;
+    words.at = {"06:30", "sunrise+30m", "sunset"};
+    words.every = "5m";
+    words.latitude = 69.65;
+    words.longitude = 18.96;
+    const Schedule schedule = make_schedule(words).value();
+    const PlanFacts year = facts("2026-01-01T00:00:00Z", "2027-01-01T00:00:00Z");
+    std::int64_t rows = 0;
+    heap_gate::seal(heap_gate::Breach::kCount);
+    const Result<TimeZone> zone = TimeZone::open("Europe/Berlin", DICOT_SCHEDULE_DATA "/zoneinfo");
+    const Plan plan = plan_next(schedule, zone.value(), year, [&rows](const Slot&) { return ++rows > 0; });
+    const std::uint64_t breaches = heap_gate::breaches();
+    heap_gate::unseal();
+    EXPECT_EQ(breaches, 0U);
+    EXPECT_EQ(rows, kMostMissedRows);
+    EXPECT_TRUE(plan.next.has_value());
 }
 
 /// A board with a clock that nobody can rely on. Dues are the multiples of the interval, which needs no schedule.
