@@ -5,6 +5,7 @@
 
 #include "dicot/base/function_ref.h"
 #include "dicot/base/status.h"
+#include "dicot/os/heap_gate.h"
 #include "dicot/os/memory_block.h"
 #include "dicot/os/memory_reserve.h"
 
@@ -15,20 +16,24 @@
 
 namespace dicot::app {
 
-/// What happened in memory since the seal. All but the peaks are 0 as long as the promise holds.
+/// What happened in memory since the seal. The first four are 0 as long as the promise holds.
 struct RunMemoryFigures
 {
-    std::uint64_t breaches = 0;      ///< operator new outside of every lease
-    std::uint64_t library_fails = 0; ///< malloc found the libraries' arena full
-    std::uint64_t frame_fails = 0;   ///< a camera's block did not fit
-    std::uint64_t office_fails = 0;  ///< slots that were ended because the office was full
+    std::uint64_t breaches = 0;         ///< operator new of a thread that was lent nothing
+    std::uint64_t office_refused = 0;   ///< works that were ended because the office was full
+    std::uint64_t library_refused = 0;  ///< times that malloc found its arena full
+    std::uint64_t frames_refused = 0;   ///< camera's blocks that did not fit
+    std::uint64_t libraries_served = 0; ///< times that malloc served
+    std::size_t office_used_bytes = 0;  ///< now; between slots the same, or something stays behind at every slot
+    std::size_t libraries_used_bytes = 0;
+    std::size_t frames_used_bytes = 0;
     std::size_t office_peak_bytes = 0;
     std::size_t libraries_peak_bytes = 0;
     std::size_t frames_peak_bytes = 0;
 };
 
-/// In this order: BareProcess::measure() and keep_address_space_known() first of all; tables, store and threads; then
-/// carve(), seal(), and slots one after the other, each in in_office().
+/// In this order: keep_address_space_known(), BareProcess::measure(); run_budget(); tables, store and threads; carve(),
+/// lock_in_ram(), seal(); then slots one after the other, each in safely(). All in one thread.
 class RunMemory
 {
 public:
@@ -40,30 +45,30 @@ public:
     static Result<std::unique_ptr<RunMemory>> carve(const RunBudget& budget);
     RunMemory(const RunMemory&) = delete;
     RunMemory& operator=(const RunMemory&) = delete;
-    /// Opens the gate; what libraries hold of their arena stays valid.
+    /// Opens the heap again. What the office served must have gone.
     ~RunMemory();
 
     /// Everything stays in RAM from now on, pages as they are touched. Fault::kOsError: the system does not let this
     /// user; the sentence says how it would.
     static Status lock_in_ram() noexcept;
 
-    /// Uses once what libraries fill on first use, then closes the heap. Breach::kCount for tests.
-    void seal(bool counts_breaches = false);
+    /// Uses once what libraries fill on first use, and closes the heap. From here to the end of this object operator
+    /// new of this thread is served from the office, malloc from the libraries' arena and MemoryBlock::map() from the
+    /// frames.
+    void seal(heap_gate::Breach breach = heap_gate::Breach::kStop);
 
-    /// One slot's work: operator new of this thread is served from the office, which is empty again afterwards, so
-    /// nothing that was made inside may be used outside. A full office ends the work: Fault::kOsError.
-    Status in_office(FunctionRef<Status()> work) noexcept;
+    /// `work`, and a full office as Fault::kOsError instead of an exception; any other exception as Fault::kSoftware.
+    Status safely(FunctionRef<Status()> work) noexcept;
 
     RunMemoryFigures figures() const noexcept;
 
 private:
     RunMemory() = default;
 
-    MemoryBlock office_, libraries_, frames_;
-    std::optional<MemoryReserve> reserve_;
-    bool sealed_ = false;
-    std::uint64_t office_fails_ = 0;
-    std::size_t office_peak_bytes_ = 0;
+    MemoryBlock office_block_, libraries_block_, frames_block_;
+    std::optional<MemoryReserve> frames_;
+    std::optional<LentHeap> office_;
+    std::uint64_t office_refused_ = 0;
 };
 
 } // namespace dicot::app

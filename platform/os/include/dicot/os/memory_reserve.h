@@ -11,11 +11,13 @@
 namespace dicot {
 
 /// While it lives, MemoryBlock::map() of every thread takes its blocks out of `memory` and never from the system, so
-/// that a camera that is opened in the third month finds the memory that it found on the first day. One at a time. The
-/// memory must outlive every block that came from it; blocks may outlive the reserve.
+/// that a camera that is opened in the third month finds the memory that it found on the first day. One at a time: of
+/// two the first one serves. The blocks that came from it must go before it does.
 class MemoryReserve
 {
 public:
+    static constexpr std::size_t kPageBytes = 4096;
+
     explicit MemoryReserve(std::span<std::byte> memory) noexcept;
     MemoryReserve(const MemoryReserve&) = delete;
     MemoryReserve& operator=(const MemoryReserve&) = delete;
@@ -24,24 +26,20 @@ public:
     /// What a block of `bytes` takes of a reserve at most.
     static constexpr std::size_t bytes_for(std::size_t bytes) noexcept
     {
-        constexpr std::size_t kPages = 3 * kPageBytes; // one to align, one to round up, and the block's own header
-        return bytes == 0 ? 0 : bytes + kPages;
+        return bytes == 0 ? 0 : bytes + 2 * kPageBytes; // to align it, and its header
     }
 
-    std::size_t peak_bytes() const noexcept;
     std::size_t used_bytes() const noexcept;
-    /// Blocks that it had no room for.
-    std::uint64_t refused() const noexcept;
+    std::size_t peak_bytes() const noexcept;
+    std::uint64_t refused() const noexcept; ///< blocks that it had no room for
 
-    static constexpr std::size_t kPageBytes = 4096;
+    /// The one that serves now, or null.
+    static MemoryReserve* in_use() noexcept;
+    /// Zeroed, aligned to a page; empty: no room.
+    std::span<std::byte> take(std::size_t bytes) noexcept;
+    void take_back(std::span<std::byte> block) noexcept;
 
 private:
-    friend class MemoryBlock;
-
-    std::span<std::byte> take(std::size_t bytes) noexcept;
-    bool take_back(std::span<std::byte> block) noexcept;
-
-    std::span<std::byte> memory_;
     mutable std::mutex mutex_;
     BlockHeap heap_;
     std::uint64_t refused_ = 0;
