@@ -91,6 +91,11 @@ struct OutputConfig
     bool keep_raw = false;
 };
 
+struct RunConfig
+{
+    int most_memory_mib = 0; ///< 0: no limit
+};
+
 /// Everything that a file may say, as its sections; what stands here is what holds without a file. Ranges and meanings:
 /// config_keys.h.
 struct Config
@@ -101,6 +106,7 @@ struct Config
     RigConfig rig;
     MatchingConfig matching;
     OutputConfig output;
+    RunConfig run;
 };
 
 /// A configuration, and where it comes from.

@@ -30,6 +30,7 @@ constexpr const char* kCosts[] = {"adcensus", "tad"};
 constexpr const char* kCpus[] = {"auto", "scalar", "avx2", "neon"};
 constexpr const char* kPrunes[] = {"never", "pulled", "all"};
 constexpr int kMostReserveMib = 1 << 20;
+constexpr int kMostMemoryMib = 1 << 20;
 constexpr double kFarthestMm = 1'000'000; // as for calibrate
 
 const ConfigKey kKeys[] = {
@@ -103,6 +104,9 @@ const ConfigKey kKeys[] = {
      ChoiceKey{reach<std::string, &Config::output, &OutputConfig::prune>(), kPrunes}},
     {"output", "keep_raw", "", "Both pictures are kept as the cameras saw them too, as PNG",
      FlagKey{reach<bool, &Config::output, &OutputConfig::keep_raw>()}},
+
+    {"run", "most_memory_mib", "MiB", "Of memory that dicot run may take; more is refused at its start; 0: no limit",
+     WholeKey{reach<int, &Config::run, &RunConfig::most_memory_mib>(), 0, kMostMemoryMib, {}}},
 };
 
 } // namespace

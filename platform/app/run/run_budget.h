@@ -1,32 +1,18 @@
 // What months alone take: every byte of memory that `dicot run` will ever have, found before it takes any.
 #pragma once
 
+#include "../cameras/camera_memory.h"
 #include "../config/config.h"
 #include "../process_bench.h"
 
 #include "dicot/base/status.h"
 
+#include <array>
 #include <cstddef>
 
 namespace dicot::app {
 
-/// In bytes. Resident is what its pages take of the board's memory once everything was used to its end; address space
-/// is what RLIMIT_AS counts.
-struct RunBudget
-{
-    std::size_t program = 0;   ///< code and data of program and libraries, what they took at the start
-    std::size_t clouds = 0;    ///< ProcessBudget::total(): tables, points, the stages of a cloud
-    std::size_t store = 0;     ///< the catalogue's block and the desk that records are read on
-    std::size_t office = 0;    ///< records, names, camera objects of one slot
-    std::size_t libraries = 0; ///< what malloc serves after the seal
-    std::size_t frames = 0;    ///< the pictures that cameras keep
-    std::size_t stacks = 0;    ///< pages of the threads' stacks that they touch
-    std::size_t address_space = 0;
-
-    std::size_t resident() const { return program + clouds + store + office + libraries + frames + stacks; }
-};
-
-/// What this process has now, before any of the above is taken: to be asked first.
+/// What this process has before it takes any of the below: to be asked first.
 struct BareProcess
 {
     std::size_t resident_bytes = 0;
@@ -35,9 +21,32 @@ struct BareProcess
     static Result<BareProcess> measure();
 };
 
-/// `clouds` for pictures of `width` x `height` px and `threads` workers; `recorded_bytes`: of one frame of recorded
-/// pictures, 0 for cameras. Fault::kConfig: it is more than run.most_memory_mib; the sentence says both.
-Result<RunBudget> run_budget(const Config& config, const BareProcess& bare, const ProcessBudget& clouds, int width,
-                             int height, int threads);
+/// In bytes, each for the most that it can become.
+struct RunBudget
+{
+    /// Resident is what the pages take of the board's memory, mapped what RLIMIT_AS counts.
+    struct Part
+    {
+        const char* name; ///< for a person
+        const char* key;  ///< for a program
+        std::size_t resident, mapped;
+    };
+
+    Part program{"program, libraries, stacks", "program", 0, 0};
+    Part clouds{"clouds: tables, matcher, compressor", "clouds", 0, 0};
+    Part store{"store: catalogue, reading of records", "store", 0, 0};
+    Part cameras{"cameras: frames", "cameras", 0, 0};
+    Part office{"office: records, names, cameras' objects", "office", 0, 0};
+    Part libraries{"libraries: what malloc serves", "libraries", 0, 0};
+
+    std::size_t resident() const;
+    std::size_t mapped() const;
+    std::array<Part, 6> parts() const { return {program, clouds, store, cameras, office, libraries}; }
+};
+
+/// `clouds` as SnapshotBench has it, with `threads` workers. Fault::kConfig: it is more than run.most_memory_mib; the
+/// sentence says both.
+Result<RunBudget> run_budget(const Config& config, const BareProcess& bare, const CameraMemory& cameras,
+                             const ProcessBudget& clouds, int threads);
 
 } // namespace dicot::app

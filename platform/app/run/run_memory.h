@@ -50,7 +50,7 @@ public:
 
     /// Everything stays in RAM from now on, pages as they are touched. Fault::kOsError: the system does not let this
     /// user; the sentence says how it would.
-    static Status lock_in_ram() noexcept;
+    static Status lock_in_ram(const RunBudget& budget) noexcept;
 
     /// Uses once what libraries fill on first use, and closes the heap. From here to the end of this object operator
     /// new of this thread is served from the office, malloc from the libraries' arena and MemoryBlock::map() from the
