@@ -1,6 +1,7 @@
 #include "run_budget.h"
 
 #include "dicot/catalogue/catalogue.h"
+#include "dicot/os/memory_reserve.h"
 #include "dicot/os/process_memory.h"
 #include "dicot/os/thread_crew.h"
 #include "dicot/record/record.h"
@@ -65,8 +66,10 @@ Result<RunBudget> run_budget(const Config& config, const BareProcess& bare, cons
     budget.program =
         with(budget.program, bare.resident_bytes + kWorkingBytes, bare.address_bytes + kHeapGrowthBytes + stacks);
     budget.clouds = with(budget.clouds, clouds.total(), clouds.total() + 2 * kGuardBytes);
-    budget.store = with(budget.store, kCatalogueResidentBytes + kRecordBytes, Catalogue::kHeapBytes + kRecordBytes);
+    const std::size_t desk = MemoryReserve::bytes_for(kRecordBytes);
+    budget.store = with(budget.store, kCatalogueResidentBytes + desk, Catalogue::kHeapBytes + desk);
     budget.cameras = with(budget.cameras, cameras.frames, cameras.frames + cameras.kernels);
+    budget.pages = cameras.frames + desk;
     const std::size_t office = kOfficeBytes + cameras.office;
     budget.office = with(budget.office, office, office);
     budget.libraries = with(budget.libraries, kLibrariesBytes, kLibrariesBytes);

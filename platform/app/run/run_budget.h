@@ -39,6 +39,8 @@ struct RunBudget
     Part office{"office: records, names, cameras' objects", "office", 0, 0};
     Part libraries{"libraries: what malloc serves", "libraries", 0, 0};
 
+    std::size_t pages = 0; ///< of cameras and store: what MemoryBlock::map() serves after the seal
+
     std::size_t resident() const;
     std::size_t mapped() const;
     std::array<Part, 6> parts() const { return {program, clouds, store, cameras, office, libraries}; }

@@ -51,7 +51,7 @@ void RunMemory::keep_address_space_known() noexcept
 Result<std::unique_ptr<RunMemory>> RunMemory::carve(const RunBudget& budget)
 {
     std::unique_ptr<RunMemory> memory(new RunMemory);
-    memory->frames_block_ = TRY(MemoryBlock::map(budget.cameras.resident));
+    memory->pages_block_ = TRY(MemoryBlock::map(budget.pages));
     memory->office_block_ = TRY(MemoryBlock::map(budget.office.mapped));
     memory->libraries_block_ = TRY(MemoryBlock::map(budget.libraries.mapped));
     return memory;
@@ -63,7 +63,7 @@ RunMemory::~RunMemory()
         return;
     heap_gate::reopen();
     office_.reset();
-    frames_.reset();
+    pages_.reset();
     leave_mapped(office_block_);
     leave_mapped(libraries_block_);
 }
@@ -84,7 +84,7 @@ Status RunMemory::lock_in_ram(const RunBudget& budget) noexcept
 
 void RunMemory::seal(heap_gate::Breach breach)
 {
-    frames_.emplace(frames_block_.bytes());
+    pages_.emplace(pages_block_.bytes());
     office_.emplace(office_block_.bytes());
     heap_gate::seal_for_good(libraries_block_.bytes(), breach);
 }
@@ -114,10 +114,10 @@ RunMemoryFigures RunMemory::figures() const noexcept
     told.libraries_served = libraries.served;
     told.libraries_used_bytes = libraries.used_bytes;
     told.libraries_peak_bytes = libraries.peak_bytes;
-    if (frames_) {
-        told.frames_refused = frames_->refused();
-        told.frames_used_bytes = frames_->used_bytes();
-        told.frames_peak_bytes = frames_->peak_bytes();
+    if (pages_) {
+        told.pages_refused = pages_->refused();
+        told.pages_used_bytes = pages_->used_bytes();
+        told.pages_peak_bytes = pages_->peak_bytes();
     }
     if (office_) {
         told.office_used_bytes = office_->used_bytes();
