@@ -4,6 +4,7 @@
 #include "dicot/base/status.h"
 #include "dicot/camera/mode.h"
 #include "dicot/matching/matcher.h"
+#include "dicot/schedule/schedule.h"
 
 #include <optional>
 #include <string>
@@ -124,6 +125,7 @@ struct Config
     PowerConfig power;
     WatchdogConfig watchdog;
     RunConfig run;
+    ScheduleConfig schedule;
 };
 
 /// A configuration, and where it comes from.

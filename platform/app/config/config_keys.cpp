@@ -21,6 +21,8 @@ template <auto Member>
 constexpr auto matching_text = reach<std::string, &Config::matching, Member>();
 template <auto Member>
 constexpr auto matching_number = reach<double, &Config::matching, Member>();
+template <auto Member>
+constexpr auto schedule_text = reach<std::string, &Config::schedule, Member>();
 
 constexpr const char* kDrivers[] = {"auto", "v4l2", "uvc"};
 constexpr PixelFormat kFormats[] = {PixelFormat::kYuyv, PixelFormat::kNv12, PixelFormat::kMjpeg, PixelFormat::kGrey};
@@ -31,8 +33,22 @@ constexpr const char* kCpus[] = {"auto", "scalar", "avx2", "neon"};
 constexpr const char* kPrunes[] = {"never", "pulled", "all"};
 constexpr const char* kBetweens[] = {"idle", "suspend", "off"};
 constexpr const char* kCamerasBetween[] = {"auto", "on", "port"};
+constexpr const char* kZones = R"("" (the system's), a name of the IANA database, or a rule as POSIX has it in TZ)";
+constexpr const char* kMoments = R"("06:30", "sunrise" or "sunset", these also as "sunrise+30m" or "sunset-1h30m")";
+constexpr const char* kIntervals = R"("" (not), or a time from 1m to 24h, as "30m", "2h" or "1h30m")";
+constexpr const char* kClocks = R"(a time from "00:00" to "24:00")";
 constexpr int kMostReserveMib = 1 << 20;
 constexpr double kFarthestMm = 1'000'000; // as for calibrate
+
+bool is_moment(std::string_view text)
+{
+    return parse_moment(text).has_value();
+}
+
+bool is_clock(std::string_view text)
+{
+    return parse_clock_s(text).has_value();
+}
 
 const ConfigKey kKeys[] = {
     {"cameras", "left", "", "The camera on the left; dicot probe lists ports and serial numbers",
@@ -125,6 +141,24 @@ const ConfigKey kKeys[] = {
      PathKey{reach<std::string, &Config::run, &RunConfig::state>()}},
     {"run", "lock_memory", "", "Its memory stays in RAM, where the system allows it",
      FlagKey{reach<bool, &Config::run, &RunConfig::lock_memory>()}},
+
+    {"schedule", "timezone", "", "Whose clocks are meant, daylight saving included; Europe/Berlin",
+     WordKey{schedule_text<&ScheduleConfig::timezone>, is_zone_text, kZones}},
+    {"schedule", "at", "", "Times of the day at which dicot run takes a snapshot; dicot schedule lists what comes",
+     WordsKey{reach<std::vector<std::string>, &Config::schedule, &ScheduleConfig::at>(), is_moment, kMoments,
+              Schedule::kMostMoments}},
+    {"schedule", "every", "", "And one every so often, counted from the time from",
+     WordKey{schedule_text<&ScheduleConfig::every>, is_interval, kIntervals}},
+    {"schedule", "from", "", "The first of every, each day",
+     WordKey{schedule_text<&ScheduleConfig::from>, is_clock, kClocks}},
+    {"schedule", "until", "", "None of every is after this; 24:00 is the end of the day",
+     WordKey{schedule_text<&ScheduleConfig::until>, is_clock, kClocks}},
+    {"schedule", "latitude", "degrees", "Of the place, for sunrise and sunset; north is positive",
+     OpenNumberKey{reach<std::optional<double>, &Config::schedule, &ScheduleConfig::latitude>(), -90, 90}},
+    {"schedule", "longitude", "degrees", "Of the place; east is positive",
+     OpenNumberKey{reach<std::optional<double>, &Config::schedule, &ScheduleConfig::longitude>(), -180, 180}},
+    {"schedule", "late_min", "min", "A snapshot that could not begin so long after its time is missed",
+     WholeKey{reach<int, &Config::schedule, &ScheduleConfig::late_min>(), 0, 720, {}}},
 };
 
 } // namespace

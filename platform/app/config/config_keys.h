@@ -49,6 +49,23 @@ struct ScriptKey
     Reach<std::string> reach;
 };
 
+/// A text that the rest of the program understands.
+struct WordKey
+{
+    Reach<std::string> reach;
+    bool (*understood)(std::string_view);
+    const char* allowed; ///< in words
+};
+
+/// A list of such texts.
+struct WordsKey
+{
+    Reach<std::vector<std::string>> reach;
+    bool (*understood)(std::string_view);
+    const char* allowed;
+    std::size_t most;
+};
+
 struct FormatsKey
 {
     Reach<std::vector<PixelFormat>> reach;
@@ -87,8 +104,8 @@ struct ConfigKey
     const char* name;
     const char* unit; ///< empty: none
     const char* meaning;
-    std::variant<BindingKey, ChoiceKey, PathKey, NameKey, ScriptKey, FormatsKey, WholeKey, NumberKey, OpenNumberKey,
-                 FlagKey>
+    std::variant<BindingKey, ChoiceKey, PathKey, NameKey, ScriptKey, WordKey, WordsKey, FormatsKey, WholeKey, NumberKey,
+                 OpenNumberKey, FlagKey>
         kind;
 };
 

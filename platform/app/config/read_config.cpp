@@ -112,6 +112,22 @@ struct Taker
         key.reach(config) = *text;
         return true;
     }
+    bool operator()(const WordKey& key) const
+    {
+        const auto* text = std::get_if<std::string>(&value);
+        if (text == nullptr || !key.understood(*text))
+            return false;
+        key.reach(config) = *text;
+        return true;
+    }
+    bool operator()(const WordsKey& key) const
+    {
+        const auto* texts = std::get_if<std::vector<std::string>>(&value);
+        if (texts == nullptr || texts->size() > key.most || !std::ranges::all_of(*texts, key.understood))
+            return false;
+        key.reach(config) = *texts;
+        return true;
+    }
     bool operator()(const FormatsKey& key) const
     {
         const auto* names = std::get_if<std::vector<std::string>>(&value);
