@@ -175,6 +175,21 @@ TEST(StageWatch, IsOneAtATimeAndItsWordsDoNothingWithoutOne)
     EXPECT_EQ(second.open({}).fault(), Fault::kSoftware);
 }
 
+TEST(StageWatch, FeedsItsSupervisorThoughTheStageFileCannotBeMade)
+{
+    const TempFolder folder;
+    const Supervisor supervisor{folder.path("notify")};
+    StageWatchRules rules;
+    rules.stage_file = "/nowhere/stage";
+    StageWatch watch;
+    EXPECT_EQ(watch.open(rules).fault(), Fault::kCannotCreate);
+    watch.ready();
+    StageWatch::enter("match", 1);
+    EXPECT_THAT(supervisor.heard(), ElementsAre("WATCHDOG=1", "READY=1"));
+    pause_ms(2);
+    EXPECT_TRUE(StageWatch::overrun());
+}
+
 TEST(StageWatch, WorksWithoutADeviceThatIsNotThere)
 {
     const TempFolder folder;
