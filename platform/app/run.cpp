@@ -129,8 +129,7 @@ void add_run(CLI::App& program, Command& chosen)
     CLI::App* command = program.add_subcommand("run", "Slot after slot by the schedule, for months");
     auto words = std::make_shared<Words>();
     words->config.add_to(*command);
-    command
-        ->add_option("-o,--output,--store", words->root, "folder of the store, as for snap (default: output.folder)")
+    command->add_option("-o,--output,--store", words->root, "folder of the store, as for snap (default: output.folder)")
         ->type_name("DIR");
     CLI::Option* once =
         command->add_flag("--once", words->once, "the slot that is due now, or else one that nobody planned; then end");
