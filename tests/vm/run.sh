@@ -20,17 +20,21 @@ set -u
 
 image=${1:?run.sh: name the image}
 shift
-timeout_s='' out='' log=$image.log disks='' count=0 clock='' end='done'
+timeout_s='' out='' log=$image.log disks='' count=0 clock='' kernel_words='' flush='' end='done'
 while [ $# -gt 1 ]; do
     case $1 in
         --timeout) timeout_s=$2 ;;
         --out) out=$2 ;;
         --log) log=$2 ;;
-        --own-clock) clock="-icount shift=3,sleep=off -rtc clock=vm,base=$2" ;;
+        --own-clock)
+            # Nothing may pass while the disk works: no flush of ours, and a guest that looks up every 4 ms.
+            clock="-icount shift=3,sleep=off -rtc clock=vm,base=$2"
+            kernel_words='nohz=off' flush=',cache.no-flush=on'
+            ;;
         --cut) end=$2 ;;
         --disk)
             count=$((count + 1))
-            disks="$disks -blockdev driver=file,filename=$2,node-name=disk$count
+            disks="$disks -blockdev driver=file,filename=$2,node-name=disk$count$flush
                 -device virtio-blk-pci,drive=disk$count,write-cache=on"
             ;;
         --logged-disk)
@@ -68,7 +72,7 @@ truncate -s 256M "$disk"
 timeout --foreground --kill-after=5 "$timeout_s" qemu-system-aarch64 -M virt -cpu cortex-a72 -accel tcg -m 512 \
     -nodefaults -display none -nic none -no-reboot -serial stdio -pidfile "$log.pid" $clock \
     -kernel "$tree/vmlinuz" -initrd "$image" \
-    -append "console=ttyAMA0 loglevel=3 panic=-1 oops=panic log_buf_len=2M systemd.show_status=0" \
+    -append "console=ttyAMA0 loglevel=3 panic=-1 oops=panic log_buf_len=2M systemd.show_status=0 $kernel_words" \
     -drive "if=none,id=out,file=$disk,format=raw" -device virtio-blk-pci,drive=out $disks \
     </dev/null >"$log.raw" 2>&1 &
 machine=$!
