@@ -84,7 +84,7 @@ wait $machine
 tr -d '\r' <"$log.raw" >"$log"
 rm -f "$log.raw" "$log.pid"
 
-sed -n 's/^dicot-vm: ok \(.*\)/ok      vm \1/p' "$log"
+sed -n 's/^dicot-vm: ok \(.*\)/ok      vm \1/p; s/^dicot-vm: figure \(.*\)/        \1/p' "$log"
 # Behind each failure what report.sh shows of it, four blanks in.
 awk '/^dicot-vm: FAILED / { sub(/^dicot-vm: FAILED/, "FAILED  vm"); print; shown = 1; next }
     !/^    / { shown = 0 }

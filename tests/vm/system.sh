@@ -115,6 +115,8 @@ for module in $modules; do
 done
 cp "$kernel/lib/modules/$version"/modules.builtin* "$kernel/lib/modules/$version/modules.order" "$root/usr/lib/modules/$version/"
 depmod -b "$root" "$version"
+echo vivid >"$root/etc/modules-load.d/cameras.conf"
+echo 'options vivid n_devs=2 node_types=0x1,0x1 input_types=0x0,0x0' >"$root/etc/modprobe.d/cameras.conf"
 
 truncate -s ${disk_mib}M "$fresh/disk.img"
 mke2fs -q -t ext4 -d "$root" "$fresh/disk.img"

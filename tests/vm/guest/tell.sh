@@ -2,15 +2,13 @@
 mkdir -p /run/out /run/work
 ln -sfn /run/out /out
 cd /run/work || exit
-usleep() { sleep 0.1; }
 . /run/vm/report.sh
-(. /run/vm/story)
-code=$?
-[ $code = 0 ] || failed story "it ended with exit code $code"
+. /run/vm/story
 dmesg >/out/dmesg
+grep -E 'Oops|BUG:|WARNING: CPU|Unable to handle|Call trace|blocked for more than' /out/dmesg | head -n 20 |
+    sed 's/^/dicot-vm: kernel: /'
 journalctl -o short-monotonic --no-pager >/out/journal 2>&1
 tar -c -C /out . >/dev/vda || failed out "what the story left cannot be handed out"
 sync
 echo "dicot-vm: done"
-echo o >/proc/sysrq-trigger
-sleep 60
+[ -n "${powered_off:-}" ] || { echo o >/proc/sysrq-trigger; sleep 60; }
