@@ -21,6 +21,7 @@ void add_rig(CLI::App& program, Command& chosen);
 void add_export(CLI::App& program, Command& chosen);
 void add_info(CLI::App& program, Command& chosen);
 void add_memory(CLI::App& program, Command& chosen);
+void add_run(CLI::App& program, Command& chosen);
 void add_selftest(CLI::App& program, Command& chosen);
 void add_show(CLI::App& program, Command& chosen);
 void add_snap(CLI::App& program, Command& chosen);
