@@ -3,6 +3,8 @@
 # kill -9, a power cut, a clock that is lost, and its own powering off. Three starts of one disk.
 #
 #   sh tests/vm/months.sh [FOLDER]      FOLDER: for all that it makes; .build/vm-months
+#
+# The machine has a clock of its own (run.sh), so that a rest of ten minutes takes none, and a busy host changes nothing.
 cd "$(dirname "$0")/../.." || exit 70
 name=months
 . tests/vm/machine.sh

@@ -11,4 +11,4 @@ journalctl -o short-monotonic --no-pager >/out/journal 2>&1
 tar -c -C /out . >/dev/vda || failed out "what the story left cannot be handed out"
 sync
 echo "dicot-vm: done"
-[ -n "${powered_off:-}" ] || { echo o >/proc/sysrq-trigger; sleep 60; }
+[ -f powered_off ] || { echo o >/proc/sysrq-trigger; sleep 60; }
