@@ -21,8 +21,8 @@ struct HealthEpipolar
 {
     double median_px = 0;
     double spread_px = 0;
-    double roll_deg = 0;   ///< of the right picture, clockwise
-    double height_ppm = 0; ///< by how much the right picture is drawn higher
+    double roll_deg = 0;   ///< of the right camera against the left one, clockwise, seen from behind
+    double height_ppm = 0; ///< by how much the right camera sees things larger
     int points = 0;
 };
 

@@ -27,12 +27,12 @@ struct EpipolarDrift
     int tried = 0;  ///< textured and matched, at most kMostPoints
     bool known() const { return points >= kFewestPoints; }
 
-    double median_px = 0; ///< above 0: the right picture lies too low
+    double median_px = 0; ///< above 0: the right camera looks too high
     double spread_px = 0; ///< median of the absolute deviations from the median
     /// How fast the residual grows to the right in the right picture, px a px: the tangent of the angle by which the
-    /// right picture is turned clockwise.
+    /// right camera is turned counterclockwise, seen from behind.
     double slope_x = 0;
-    double slope_y = 0; ///< and downwards: how much higher the right picture is drawn than the left one
+    double slope_y = 0; ///< and downwards: by how much the right camera sees things larger
 
     static constexpr int kMostPoints = 500;
     /// Residuals beyond this are not looked for.
