@@ -4,6 +4,9 @@
 #include "refind.h"
 #include "resistant_plane.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace dicot {
 namespace {
 
@@ -20,8 +23,10 @@ Desk lay_out(Arena& arena, int width, int height)
     Desk desk;
     desk.left = {arena.take<std::uint8_t>(pixels).data(), width, height};
     desk.right = {arena.take<std::uint8_t>(pixels).data(), width, height};
-    desk.sights = arena.take<drift::Sight>(EpipolarDrift::kMostPoints);
-    desk.values = arena.take<double>(EpipolarDrift::kMostPoints);
+    const drift::Cells cells = drift::cells_of(width, height);
+    const std::size_t most = static_cast<std::size_t>(cells.columns) * static_cast<std::size_t>(cells.rows);
+    desk.sights = arena.take<drift::Sight>(most);
+    desk.values = arena.take<double>(most);
     return desk;
 }
 
@@ -58,6 +63,9 @@ EpipolarDrift measure(const Desk& desk, const DisparityMap& map)
     drift.spread_px = plane.spread;
     drift.slope_x = plane.slope_x;
     drift.slope_y = plane.slope_y;
+    const double right = map.relative.width - 1, bottom = map.relative.height - 1;
+    drift.corner_px = std::max({std::fabs(plane.at(0, 0)), std::fabs(plane.at(right, 0)),
+                                std::fabs(plane.at(0, bottom)), std::fabs(plane.at(right, bottom))});
     return drift;
 }
 

@@ -9,6 +9,8 @@
 namespace dicot::drift {
 namespace {
 
+/// px, of a cell's sides: small pictures have fewer cells.
+constexpr int kLeastCell = 8;
 /// Places that are looked at in a cell, along each axis.
 constexpr int kTries = 6;
 /// Texture is looked for in a window that reaches so far.
@@ -68,10 +70,11 @@ double texture(Grey grey, int x, int y)
 Cells cells_of(int width, int height) noexcept
 {
     Cells cells{1, 1};
-    while ((cells.columns + 1) * (cells.columns + 1) * height <= EpipolarDrift::kMostPoints * width)
+    while (std::int64_t{cells.columns + 1} * (cells.columns + 1) * height <=
+           std::int64_t{EpipolarDrift::kMostPoints} * width)
         ++cells.columns;
-    cells.rows = std::max(1, EpipolarDrift::kMostPoints / cells.columns);
-    return cells;
+    cells.rows = EpipolarDrift::kMostPoints / cells.columns;
+    return {std::clamp(width / kLeastCell, 1, cells.columns), std::clamp(height / kLeastCell, 1, cells.rows)};
 }
 
 std::optional<Place> textured_place(Grey left, const DisparityMap& map, const Cells& cells, int column,

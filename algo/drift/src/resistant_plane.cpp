@@ -60,6 +60,7 @@ Plane resistant_plane(std::span<Sight> sights, std::span<double> values) noexcep
         plane.slope_y += slope(
             sights, values, [](const Sight& sight) { return sight.y; }, left);
     }
+    plane.at_origin = median(sights, values, left);
     return plane;
 }
 

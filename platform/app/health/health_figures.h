@@ -23,6 +23,7 @@ struct HealthEpipolar
     double spread_px = 0;
     double roll_deg = 0;   ///< of the right camera against the left one, clockwise, seen from behind
     double height_ppm = 0; ///< by how much the right camera sees things larger
+    double corner_px = 0;  ///< the largest residual that median and slopes make in a corner
     int points = 0;
 };
 
