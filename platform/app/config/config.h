@@ -4,6 +4,7 @@
 #include "dicot/base/status.h"
 #include "dicot/camera/mode.h"
 #include "dicot/matching/matcher.h"
+#include "dicot/schedule/schedule.h"
 
 #include <optional>
 #include <string>
@@ -91,6 +92,26 @@ struct OutputConfig
     bool keep_raw = false;
 };
 
+struct PowerConfig
+{
+    std::string between = "idle";  ///< "idle", "suspend", "off"
+    std::string cameras = "auto";  ///< "auto", "on", "port"
+    std::string rtc = "/dev/rtc0"; ///< the clock whose alarm wakes the board
+    int least_rest_s = 120;        ///< shorter pauses are idled
+};
+
+struct WatchdogConfig
+{
+    std::string device; ///< empty: none
+    int stage_s = 900;  ///< bound of one stage of a slot
+};
+
+struct RunConfig
+{
+    std::string state = "/var/lib/dicot/state"; ///< folder of what one start leaves for the next
+    bool lock_memory = true;
+};
+
 /// Everything that a file may say, as its sections; what stands here is what holds without a file. Ranges and meanings:
 /// config_keys.h.
 struct Config
@@ -101,6 +122,10 @@ struct Config
     RigConfig rig;
     MatchingConfig matching;
     OutputConfig output;
+    PowerConfig power;
+    WatchdogConfig watchdog;
+    RunConfig run;
+    ScheduleConfig schedule;
 };
 
 /// A configuration, and where it comes from.

@@ -12,7 +12,7 @@ namespace dicot::app {
 namespace {
 
 /// The last line of those that say one of these keys: where the contradiction arises.
-int line_of(const LoadedConfig& loaded, const char* section, std::initializer_list<const char*> names)
+int line_of(const LoadedConfig& loaded, const char* section, std::span<const char* const> names)
 {
     int line = 0;
     for (std::size_t i = 0; i < loaded.lines.size(); ++i)
@@ -20,6 +20,11 @@ int line_of(const LoadedConfig& loaded, const char* section, std::initializer_li
             if (std::strcmp(config_keys()[i].section, section) == 0 && std::strcmp(config_keys()[i].name, name) == 0)
                 line = std::max(line, loaded.lines[i]);
     return line;
+}
+
+int line_of(const LoadedConfig& loaded, const char* section, std::initializer_list<const char*> names)
+{
+    return line_of(loaded, section, std::span{names.begin(), names.size()});
 }
 
 Status check_bindings(const LoadedConfig& loaded, const char* file)
@@ -52,6 +57,20 @@ Status check_scripts(const LoadedConfig& loaded, const char* file)
     return check("replay_script_right", loaded.config.cameras.right_script());
 }
 
+Status check_schedule(const LoadedConfig& loaded, const char* file)
+{
+    const ScheduleConfig& schedule = loaded.config.schedule;
+    if (const std::optional<Contradiction> found = contradiction_in(schedule))
+        return failure(Fault::kConfig, "%s:%d: [schedule] %s", file, line_of(loaded, "schedule", found->keys),
+                       found->why);
+    if (schedule.timezone.empty()) // the system's is no fault of this file
+        return {};
+    const Status zone = TimeZone::open(schedule.timezone).status();
+    return zone.ok() ? zone
+                     : failure(Fault::kConfig, "%s:%d: [schedule] timezone: %s", file,
+                               line_of(loaded, "schedule", {"timezone"}), zone.message());
+}
+
 } // namespace
 
 Status check_together(const LoadedConfig& loaded)
@@ -59,6 +78,7 @@ Status check_together(const LoadedConfig& loaded)
     const char* file = shown_path(loaded.file.c_str());
     TRY(check_bindings(loaded, file));
     TRY(check_scripts(loaded, file));
+    TRY(check_schedule(loaded, file));
     const RigConfig& rig = loaded.config.rig;
     if (rig.near_mm && rig.far_mm && *rig.near_mm >= *rig.far_mm)
         return failure(Fault::kConfig,

@@ -21,6 +21,8 @@ template <auto Member>
 constexpr auto matching_text = reach<std::string, &Config::matching, Member>();
 template <auto Member>
 constexpr auto matching_number = reach<double, &Config::matching, Member>();
+template <auto Member>
+constexpr auto schedule_text = reach<std::string, &Config::schedule, Member>();
 
 constexpr const char* kDrivers[] = {"auto", "v4l2", "uvc"};
 constexpr PixelFormat kFormats[] = {PixelFormat::kYuyv, PixelFormat::kNv12, PixelFormat::kMjpeg, PixelFormat::kGrey};
@@ -29,8 +31,24 @@ constexpr const char* kMethods[] = {"paper", "standard"};
 constexpr const char* kCosts[] = {"adcensus", "tad"};
 constexpr const char* kCpus[] = {"auto", "scalar", "avx2", "neon"};
 constexpr const char* kPrunes[] = {"never", "pulled", "all"};
+constexpr const char* kBetweens[] = {"idle", "suspend", "off"};
+constexpr const char* kCamerasBetween[] = {"auto", "on", "port"};
+constexpr const char* kZones = R"("" (the system's), a name of the IANA database, or a rule as POSIX has it in TZ)";
+constexpr const char* kMoments = R"("06:30", "sunrise" or "sunset", these also as "sunrise+30m" or "sunset-1h30m")";
+constexpr const char* kIntervals = R"("" (not), or a time from 1m to 24h, as "30m", "2h" or "1h30m")";
+constexpr const char* kClocks = R"(a time from "00:00" to "24:00")";
 constexpr int kMostReserveMib = 1 << 20;
 constexpr double kFarthestMm = 1'000'000; // as for calibrate
+
+bool is_moment(std::string_view text)
+{
+    return parse_moment(text).has_value();
+}
+
+bool is_clock(std::string_view text)
+{
+    return parse_clock_s(text).has_value();
+}
 
 const ConfigKey kKeys[] = {
     {"cameras", "left", "", "The camera on the left; dicot probe lists ports and serial numbers",
@@ -103,6 +121,44 @@ const ConfigKey kKeys[] = {
      ChoiceKey{reach<std::string, &Config::output, &OutputConfig::prune>(), kPrunes}},
     {"output", "keep_raw", "", "Both pictures are kept as the cameras saw them too, as PNG",
      FlagKey{reach<bool, &Config::output, &OutputConfig::keep_raw>()}},
+
+    {"power", "between", "",
+     "What the board does between two slots; off: it is powered off until the alarm of its clock",
+     ChoiceKey{reach<std::string, &Config::power, &PowerConfig::between>(), kBetweens}},
+    {"power", "cameras", "", "The cameras then; auto: the kernel suspends them, port: their USB ports are switched off",
+     ChoiceKey{reach<std::string, &Config::power, &PowerConfig::cameras>(), kCamerasBetween}},
+    {"power", "rtc", "", "The clock that runs while the board sleeps, and wakes it",
+     PathKey{reach<std::string, &Config::power, &PowerConfig::rtc>()}},
+    {"power", "least_rest_s", "s", "Shorter pauses are idled",
+     WholeKey{reach<int, &Config::power, &PowerConfig::least_rest_s>(), 5, 86'400, {}}},
+
+    {"watchdog", "device", "", "The board's own, which resets it; \"\": systemd's watchdog alone",
+     PathKey{reach<std::string, &Config::watchdog, &WatchdogConfig::device>(), true}},
+    {"watchdog", "stage_s", "s", "Bound of one stage of a slot; one that is longer is aborted, and the slot is missed",
+     WholeKey{reach<int, &Config::watchdog, &WatchdogConfig::stage_s>(), 10, 21'600, {}}},
+
+    {"run", "state", "", "Folder of what one start of dicot run leaves for the next",
+     PathKey{reach<std::string, &Config::run, &RunConfig::state>()}},
+    {"run", "lock_memory", "", "Its memory stays in RAM, where the system allows it",
+     FlagKey{reach<bool, &Config::run, &RunConfig::lock_memory>()}},
+
+    {"schedule", "timezone", "", "Whose clocks are meant, daylight saving included; Europe/Berlin",
+     WordKey{schedule_text<&ScheduleConfig::timezone>, is_zone_text, kZones}},
+    {"schedule", "at", "", "Times of the day at which dicot run takes a snapshot; dicot schedule lists what comes",
+     WordsKey{reach<std::vector<std::string>, &Config::schedule, &ScheduleConfig::at>(), is_moment, kMoments,
+              Schedule::kMostMoments}},
+    {"schedule", "every", "", "And one every so often, counted from the time from",
+     WordKey{schedule_text<&ScheduleConfig::every>, is_interval, kIntervals}},
+    {"schedule", "from", "", "The first of every, each day",
+     WordKey{schedule_text<&ScheduleConfig::from>, is_clock, kClocks}},
+    {"schedule", "until", "", "None of every is after this; 24:00 is the end of the day",
+     WordKey{schedule_text<&ScheduleConfig::until>, is_clock, kClocks}},
+    {"schedule", "latitude", "degrees", "Of the place, for sunrise and sunset; north is positive",
+     OpenNumberKey{reach<std::optional<double>, &Config::schedule, &ScheduleConfig::latitude>(), -90, 90}},
+    {"schedule", "longitude", "degrees", "Of the place; east is positive",
+     OpenNumberKey{reach<std::optional<double>, &Config::schedule, &ScheduleConfig::longitude>(), -180, 180}},
+    {"schedule", "late_min", "min", "A snapshot that could not begin so long after its time is missed",
+     WholeKey{reach<int, &Config::schedule, &ScheduleConfig::late_min>(), 0, 720, {}}},
 };
 
 } // namespace

@@ -34,6 +34,7 @@ struct ChoiceKey
 struct PathKey
 {
     Reach<std::string> reach;
+    bool or_none = false; ///< "" is allowed
 };
 
 /// A name as is_device_name() has it, or none.
@@ -46,6 +47,23 @@ struct NameKey
 struct ScriptKey
 {
     Reach<std::string> reach;
+};
+
+/// A text that the rest of the program understands.
+struct WordKey
+{
+    Reach<std::string> reach;
+    bool (*understood)(std::string_view);
+    const char* allowed; ///< in words
+};
+
+/// A list of such texts.
+struct WordsKey
+{
+    Reach<std::vector<std::string>> reach;
+    bool (*understood)(std::string_view);
+    const char* allowed;
+    std::size_t most;
 };
 
 struct FormatsKey
@@ -86,8 +104,8 @@ struct ConfigKey
     const char* name;
     const char* unit; ///< empty: none
     const char* meaning;
-    std::variant<BindingKey, ChoiceKey, PathKey, NameKey, ScriptKey, FormatsKey, WholeKey, NumberKey, OpenNumberKey,
-                 FlagKey>
+    std::variant<BindingKey, ChoiceKey, PathKey, NameKey, ScriptKey, WordKey, WordsKey, FormatsKey, WholeKey, NumberKey,
+                 OpenNumberKey, FlagKey>
         kind;
 };
 

@@ -61,6 +61,8 @@ struct TomlOf
     std::string operator()(const PathKey& key) const { return quoted(key.reach(config)); }
     std::string operator()(const NameKey& key) const { return quoted(key.reach(config)); }
     std::string operator()(const ScriptKey& key) const { return quoted(key.reach(config)); }
+    std::string operator()(const WordKey& key) const { return quoted(key.reach(config)); }
+    std::string operator()(const WordsKey& key) const { return "[" + listed(key.reach(config), ", ", quoted) + "]"; }
     std::string operator()(const FormatsKey& key) const
     {
         return "[" + listed(key.reach(config), ", ", quoted_name) + "]";
@@ -82,12 +84,17 @@ struct AllowedOf
         return R"("" (the first one found), "port:1-1.2", "serial:ABC" or "replay:FOLDER")";
     }
     std::string operator()(const ChoiceKey& key) const { return listed(key.choices, " or ", quoted); }
-    std::string operator()(const PathKey&) const { return "a path"; }
+    std::string operator()(const PathKey& key) const { return key.or_none ? R"(a path, or "")" : "a path"; }
     std::string operator()(const NameKey&) const
     {
         return R"("" (the host's name), or letters, digits, '.', '_' and '-', 63 at most and no date)";
     }
     std::string operator()(const ScriptKey&) const { return "a text as drivers/README.md has it under replay"; }
+    std::string operator()(const WordKey& key) const { return key.allowed; }
+    std::string operator()(const WordsKey& key) const
+    {
+        return "a list of " + std::to_string(key.most) + " at most, each " + key.allowed;
+    }
     std::string operator()(const FormatsKey& key) const
     {
         return "a list of " + listed(key.choices, " or ", quoted_name) + ", none of them twice";

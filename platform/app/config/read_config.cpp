@@ -91,7 +91,7 @@ struct Taker
     bool operator()(const PathKey& key) const
     {
         const auto* text = std::get_if<std::string>(&value);
-        if (text == nullptr || !is_path(*text))
+        if (text == nullptr || !(is_path(*text) || (key.or_none && text->empty())))
             return false;
         key.reach(config) = *text;
         return true;
@@ -110,6 +110,22 @@ struct Taker
         if (text == nullptr)
             return false;
         key.reach(config) = *text;
+        return true;
+    }
+    bool operator()(const WordKey& key) const
+    {
+        const auto* text = std::get_if<std::string>(&value);
+        if (text == nullptr || !key.understood(*text))
+            return false;
+        key.reach(config) = *text;
+        return true;
+    }
+    bool operator()(const WordsKey& key) const
+    {
+        const auto* texts = std::get_if<std::vector<std::string>>(&value);
+        if (texts == nullptr || texts->size() > key.most || !std::ranges::all_of(*texts, key.understood))
+            return false;
+        key.reach(config) = *texts;
         return true;
     }
     bool operator()(const FormatsKey& key) const
