@@ -32,6 +32,8 @@ struct HealthRepairs
 {
     int finished = 0, interrupted = 0, left_over = 0, rows_added = 0;
     bool catalogue_new = false;
+
+    friend bool operator==(const HealthRepairs&, const HealthRepairs&) = default;
 };
 
 /// The card as the snapshot found it.
