@@ -7,9 +7,11 @@
 #include "dicot/cloud/render.h"
 #include "dicot/export/export_cloud.h"
 #include "dicot/matching/matcher.h"
+#include "dicot/os/stage_watch.h"
 #include "dicot/picture/write_picture.h"
 
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace dicot::app {
@@ -43,6 +45,8 @@ Status CloudWork::see(PairSource& source, const PictureNames& names, FileShelf& 
 {
     StopWatch watch;
     times = {};
+    StageWatch::enter("capture", stage_bound_us);
+    drift_ = {};
     const int width = plan_.rig.width;
     const int height = plan_.rig.height;
     Arena stage = bench_.next_stage();
@@ -55,6 +59,7 @@ Status CloudWork::see(PairSource& source, const PictureNames& names, FileShelf& 
         const auto raw_right = take_picture<Rgb8>(before_matching, width, height);
         TRY(source.fill(painted, raw_right, before_matching));
         times.read_s = watch.lap_s();
+        StageWatch::enter("rectify", stage_bound_us);
         remap(plan_.tables->left(), *plan_.kernels, painted, left, plan_.tables->spans());
         remap(plan_.tables->right(), *plan_.kernels, raw_right, right, plan_.tables->spans());
         times.rectify_s = watch.lap_s();
@@ -67,14 +72,23 @@ Status CloudWork::see(PairSource& source, const PictureNames& names, FileShelf& 
                       [&](ByteSink& sink) { return write_jpeg(sink, names.left.c_str(), left, kJpegQuality); }));
     times.pictures_s = watch.lap_s();
 
+    StageWatch::enter("match", stage_bound_us);
     Matcher matcher = TRY(Matcher::make(width, height, plan_.match, *plan_.kernels, plan_.threads, stage));
     const DisparityMap map = [&] {
         if (!shows_progress)
-            return matcher.match(left, right, crew_).map;
+            return matcher
+                .match(left, right, crew_, {nullptr, [](void*, int, int) { StageWatch::progress(); }, nullptr})
+                .map;
         Progress progress("matching");
         return matcher.match(left, right, crew_, {nullptr, Progress::rows_done, &progress}).map;
     }();
     times.match_s = watch.lap_s();
+    // In the memory where disparities are painted later: it is larger than what the measurement takes.
+    Arena beside{std::as_writable_bytes(
+        std::span{painted.data, static_cast<std::size_t>(width) * static_cast<std::size_t>(height)})};
+    if (drift_scratch_bytes(width, height) <= beside.size())
+        drift_ = TRY(measure_drift(left, right, map, beside));
+    times.drift_s = watch.lap_s();
 
     Arena kept = bench_.kept;
     const Triangulated seen = triangulate(map, left, plan_.triangulation, kept);
@@ -92,6 +106,7 @@ Status CloudWork::see(PairSource& source, const PictureNames& names, FileShelf& 
 Status CloudWork::encode(const CloudMeta& meta)
 {
     StopWatch watch;
+    StageWatch::enter("encode", stage_bound_us);
     Arena stage = bench_.next_stage();
     encoded_ = TRY(encode_cloud(cloud_, meta, stage.take<std::byte>(encode_heap_bytes(cloud_.points.size()))));
     times.encode_s = watch.lap_s();

@@ -143,6 +143,21 @@ TEST(Catalogue, AnswersQueriesInAscendingOrder)
     EXPECT_EQ(visits, 3);
 }
 
+TEST(Catalogue, KnowsTheNewestSlotThatWasPlannedOnAClockThatIsBelieved)
+{
+    const auto catalogue = opened(":memory:");
+    ASSERT_TRUE(catalogue);
+    EXPECT_FALSE(catalogue->newest_planned(0).value());
+    SlotRow asked_for = slot_row(4);
+    asked_for.due_us.reset();
+    SlotRow wrong_clock = slot_row(3);
+    wrong_clock.clock_trust = "not set";
+    for (const SlotRow& row : {slot_row(1), slot_row(2), wrong_clock, asked_for})
+        ASSERT_TRUE(catalogue->put(row).ok());
+    EXPECT_EQ(catalogue->newest_planned(0).value(), slot_row(2));
+    EXPECT_FALSE(catalogue->newest_planned(*slot_row(2).due_us + 1).value());
+}
+
 TEST(Catalogue, MayBeChangedWhileItsRowsAreVisited)
 {
     const auto catalogue = opened(":memory:");

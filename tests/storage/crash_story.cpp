@@ -21,11 +21,18 @@ std::string bytes_of_seed(unsigned seed, std::size_t count)
     return bytes;
 }
 
+/// Every other minute was planned, half a minute before.
+std::optional<std::int64_t> planned(std::int64_t began_us)
+{
+    return began_us / (60 * kSecond) % 2 == 0 ? std::optional{began_us - 30 * kSecond} : std::nullopt;
+}
+
 std::string record_of(std::int64_t sequence, std::int64_t began_us, const Content& content)
 {
     RecordFacts facts;
     facts.sequence = sequence;
     facts.began_us = began_us;
+    facts.due_us = planned(began_us);
     facts.done = content.done;
     facts.reason = content.reason.c_str();
     facts.clock_trust = "set";
@@ -55,7 +62,8 @@ Status begin(CrashMedium& card, Store& store, std::int64_t began_us, Told& told)
 {
     const std::int64_t before = store.sequence();
     const Moment from = card.log().size();
-    const Status begun = store.begin({began_us, {}});
+    told.due_us = planned(began_us);
+    const Status begun = store.begin({began_us, told.due_us});
     if (store.sequence() == before)
         return begun.ok() ? failure(Fault::kSoftware, "a snapshot without a number of its own") : begun;
     told.begin_from = from;

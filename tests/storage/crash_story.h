@@ -32,6 +32,7 @@ struct Told
 {
     std::int64_t sequence = 0;
     std::string folder;
+    std::optional<std::int64_t> due_us;
     std::vector<Content> contents; ///< one for each commit() that was tried; what was acknowledged is the last
     Moment begin_from = kNever, begun = kNever;
     Moment commit_from = kNever, acknowledged = kNever;

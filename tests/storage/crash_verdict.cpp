@@ -160,6 +160,8 @@ void Judge::look_at_interrupted(const Told& told)
     const bool bare = files.size() == 2 && files.count("record.json") == 1 && files.count("SHA256SUMS") == 1;
     if (!bare || row == nullptr || row->done || !row->reason.view().starts_with("interrupted"))
         say(which + "neither whole nor a miss");
+    else if (row->due_us != told.due_us)
+        say(which + "when it was planned is forgotten");
 }
 
 void Judge::look_at_each(const Told& told)

@@ -69,6 +69,21 @@ TEST_F(StoreTest, WhatWasBegunAndNotStoredIsAMissWithItsNumber)
     EXPECT_EQ(store.sequence(), 2);
 }
 
+TEST_F(StoreTest, WhatWasPlannedAndInterruptedKeepsWhenItWasPlannedAndSaysWhy)
+{
+    Store& first = open();
+    ASSERT_TRUE(first.begin({kNoon - 7'000'000, kNoon + 999'999}).ok());
+    StoreRules rules;
+    rules.cause = "in stage match";
+    Store& store = open(rules);
+    const auto rows = rows_of(store.catalogue());
+    ASSERT_EQ(rows.size(), 1U);
+    EXPECT_EQ(rows[0].due_us, kNoon);
+    EXPECT_TRUE(rows[0].reason.view().ends_with(": in stage match"));
+    EXPECT_TRUE(is_at("2026-06-01/000001_20260601T115953Z/record.json"));
+    EXPECT_EQ(verify().findings, 0);
+}
+
 TEST_F(StoreTest, WhatWasWholeAndNotYetInItsPlaceIsFinished)
 {
     ASSERT_TRUE(store_one(open(), kNoon).ok());

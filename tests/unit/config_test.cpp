@@ -89,6 +89,14 @@ const Promise kPromises[] = {
     {"output", "reserve_mib", {"0", "1048576"}, {"-1", "1048577", "1.5", "\"256\""}},
     {"output", "prune", {R"("never")", R"("pulled")", R"("all")"}, {R"("")", R"("oldest")", "false"}},
     {"output", "keep_raw", {"true", "false"}, {"0", "\"yes\""}},
+    {"power", "between", {R"("idle")", R"("suspend")", R"("off")"}, {R"("")", R"("sleep")", "0"}},
+    {"power", "cameras", {R"("auto")", R"("on")"}, {R"("off")", "true"}},
+    {"power", "rtc", {R"("/dev/rtc1")"}, {R"("")", "0"}},
+    {"power", "least_rest_s", {"5", "86400"}, {"4", "86401", "60.0"}},
+    {"watchdog", "device", {R"("")", R"("/dev/watchdog0")"}, {"true", R"("a\nb")"}},
+    {"watchdog", "stage_s", {"10", "21600"}, {"9", "21601", "\"900\""}},
+    {"run", "state", {R"("/s/t")"}, {R"("")", "[]"}},
+    {"run", "lock_memory", {"true", "false"}, {"1"}},
     {"schedule",
      "timezone",
      {R"("")", R"("UTC")", R"("CET-1CEST,M3.5.0,M10.5.0/3")", R"("<+0545>-5:45")"},
@@ -304,6 +312,31 @@ TEST(Config, PlantsBeginBeforeTheyEnd)
     EXPECT_THAT(complaint("[rig]\nfar_mm = 200\nnear_mm = 200\n"),
                 StartsWith("t.toml:3: [rig] near_mm is 200 and far_mm 200"));
     EXPECT_TRUE(parse("[rig]\nfar_mm = 200\nnear_mm = 199.9\n").ok());
+}
+
+TEST(Config, PortsAreSwitchedOnlyOfCamerasThatAreBoundByPort)
+{
+    const std::string port = "[power]\ncameras = 'port'\n";
+    EXPECT_THAT(complaint(port),
+                StartsWith("t.toml:2: [power] cameras = \"port\" needs cameras that are bound by port"));
+    EXPECT_THAT(complaint(port + "[cameras]\nleft = '1-1'\nright = 'serial:A'"), StartsWith("t.toml:2: "));
+    EXPECT_EQ(parse(port + "[cameras]\nleft = '1-1'\nright = '1-2'").value().config.power.cameras, "port");
+    EXPECT_TRUE(parse(port + "[cameras]\nleft = 'replay:a'\nright = 'replay:a'").ok());
+}
+
+TEST(Config, PathsThatAreKeptWithoutAHeapHaveALength)
+{
+    const std::string name(126, 'x');
+    EXPECT_TRUE(parse("[power]\nrtc = '/" + name + "'").ok());
+    EXPECT_THAT(complaint("[power]\nrtc = '/" + name + "x'"), StartsWith("t.toml:2: [power] rtc has 128 bytes"));
+    EXPECT_THAT(complaint("[watchdog]\ndevice = '/" + name + "x'"), StartsWith("t.toml:2: [watchdog] device"));
+    EXPECT_THAT(complaint("[run]\nstate = '/" + name + name + "'"), StartsWith("t.toml:2: [run] state"));
+}
+
+TEST(Config, NoWatchdogStaysNone)
+{
+    EXPECT_EQ(parse("[watchdog]\ndevice = ''", "/etc/dicot").value().config.watchdog.device, "");
+    EXPECT_EQ(parse("[watchdog]\ndevice = 'dog'", "/etc/dicot").value().config.watchdog.device, "/etc/dicot/dog");
 }
 
 TEST(Config, ASchedulesContradictionsAreToldWithTheLastOfTheirLines)

@@ -92,6 +92,27 @@ struct OutputConfig
     bool keep_raw = false;
 };
 
+struct PowerConfig
+{
+    std::string between = "idle";  ///< "idle", "suspend", "off"
+    std::string cameras = "auto";  ///< "auto", "on", "port"
+    std::string rtc = "/dev/rtc0"; ///< the clock whose alarm wakes the board
+    int least_rest_s = 120;        ///< shorter pauses are idled
+};
+
+struct WatchdogConfig
+{
+    std::string device; ///< empty: none
+    int stage_s = 900;  ///< bound of one stage of a slot
+};
+
+struct RunConfig
+{
+    std::string state = "/var/lib/dicot/state"; ///< folder of what one start leaves for the next
+    bool lock_memory = true;
+    int most_memory_mib = 0; ///< 0: no limit
+};
+
 /// Everything that a file may say, as its sections; what stands here is what holds without a file. Ranges and meanings:
 /// config_keys.h.
 struct Config
@@ -102,6 +123,9 @@ struct Config
     RigConfig rig;
     MatchingConfig matching;
     OutputConfig output;
+    PowerConfig power;
+    WatchdogConfig watchdog;
+    RunConfig run;
     ScheduleConfig schedule;
 };
 

@@ -71,6 +71,32 @@ Status check_schedule(const LoadedConfig& loaded, const char* file)
                                line_of(loaded, "schedule", {"timezone"}), zone.message());
 }
 
+/// A port that is off has no camera that could be found by another word.
+Status check_power(const LoadedConfig& loaded, const char* file)
+{
+    const Config& config = loaded.config;
+    for (const CameraBinding& side : {config.cameras.left, config.cameras.right})
+        if (config.power.cameras == "port" && side.by != BoundBy::kPort && side.by != BoundBy::kReplay)
+            return failure(Fault::kConfig,
+                           "%s:%d: [power] cameras = \"port\" needs cameras that are bound by port, as \"port:1-1.2\"; "
+                           "dicot probe lists them",
+                           file, line_of(loaded, "power", {"cameras"}));
+    const struct
+    {
+        const char* section;
+        const char* name;
+        const std::string& path;
+        std::size_t most;
+    } kept[] = {{"power", "rtc", config.power.rtc, 127},
+                {"watchdog", "device", config.watchdog.device, 127},
+                {"run", "state", config.run.state, 240}}; // they are kept without a heap
+    for (const auto& one : kept)
+        if (one.path.size() > one.most)
+            return failure(Fault::kConfig, "%s:%d: [%s] %s has %zu bytes: name a path of %zu at most", file,
+                           line_of(loaded, one.section, {one.name}), one.section, one.name, one.path.size(), one.most);
+    return {};
+}
+
 } // namespace
 
 Status check_together(const LoadedConfig& loaded)
@@ -79,6 +105,7 @@ Status check_together(const LoadedConfig& loaded)
     TRY(check_bindings(loaded, file));
     TRY(check_scripts(loaded, file));
     TRY(check_schedule(loaded, file));
+    TRY(check_power(loaded, file));
     const RigConfig& rig = loaded.config.rig;
     if (rig.near_mm && rig.far_mm && *rig.near_mm >= *rig.far_mm)
         return failure(Fault::kConfig,

@@ -31,11 +31,14 @@ constexpr const char* kMethods[] = {"paper", "standard"};
 constexpr const char* kCosts[] = {"adcensus", "tad"};
 constexpr const char* kCpus[] = {"auto", "scalar", "avx2", "neon"};
 constexpr const char* kPrunes[] = {"never", "pulled", "all"};
+constexpr const char* kBetweens[] = {"idle", "suspend", "off"};
+constexpr const char* kCamerasBetween[] = {"auto", "on", "port"};
 constexpr const char* kZones = R"("" (the system's), a name of the IANA database, or a rule as POSIX has it in TZ)";
 constexpr const char* kMoments = R"("06:30", "sunrise" or "sunset", these also as "sunrise+30m" or "sunset-1h30m")";
 constexpr const char* kIntervals = R"("" (not), or a time from 1m to 24h, as "30m", "2h" or "1h30m")";
 constexpr const char* kClocks = R"(a time from "00:00" to "24:00")";
 constexpr int kMostReserveMib = 1 << 20;
+constexpr int kMostMemoryMib = 1 << 20;
 constexpr double kFarthestMm = 1'000'000; // as for calibrate
 
 bool is_moment(std::string_view text)
@@ -137,6 +140,28 @@ const ConfigKey kKeys[] = {
      OpenNumberKey{reach<std::optional<double>, &Config::schedule, &ScheduleConfig::longitude>(), -180, 180}},
     {"schedule", "late_min", "min", "A snapshot that could not begin so long after its time is missed",
      WholeKey{reach<int, &Config::schedule, &ScheduleConfig::late_min>(), 0, 720, {}}},
+
+    {"power", "between", "",
+     "What the board does between two slots; off: it is powered off until the alarm of its clock",
+     ChoiceKey{reach<std::string, &Config::power, &PowerConfig::between>(), kBetweens}},
+    {"power", "cameras", "", "The cameras then; auto: the kernel suspends them, port: their USB ports are switched off",
+     ChoiceKey{reach<std::string, &Config::power, &PowerConfig::cameras>(), kCamerasBetween}},
+    {"power", "rtc", "", "The clock that runs while the board sleeps, and wakes it",
+     PathKey{reach<std::string, &Config::power, &PowerConfig::rtc>()}},
+    {"power", "least_rest_s", "s", "Shorter pauses are idled",
+     WholeKey{reach<int, &Config::power, &PowerConfig::least_rest_s>(), 5, 86'400, {}}},
+
+    {"watchdog", "device", "", "The board's own, which resets it; \"\": systemd's watchdog alone",
+     PathKey{reach<std::string, &Config::watchdog, &WatchdogConfig::device>(), true}},
+    {"watchdog", "stage_s", "s", "Bound of one stage of a slot; one that is longer is aborted, and the slot is missed",
+     WholeKey{reach<int, &Config::watchdog, &WatchdogConfig::stage_s>(), 10, 21'600, {}}},
+
+    {"run", "state", "", "Folder of what one start of dicot run leaves for the next",
+     PathKey{reach<std::string, &Config::run, &RunConfig::state>()}},
+    {"run", "lock_memory", "", "Its memory stays in RAM, where the system allows it",
+     FlagKey{reach<bool, &Config::run, &RunConfig::lock_memory>()}},
+    {"run", "most_memory_mib", "MiB", "Of memory that dicot run may take; more is refused at its start; 0: no limit",
+     WholeKey{reach<int, &Config::run, &RunConfig::most_memory_mib>(), 0, kMostMemoryMib, {}}},
 };
 
 } // namespace

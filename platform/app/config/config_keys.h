@@ -34,6 +34,7 @@ struct ChoiceKey
 struct PathKey
 {
     Reach<std::string> reach;
+    bool or_none = false; ///< "" is allowed
 };
 
 /// A name as is_device_name() has it, or none.

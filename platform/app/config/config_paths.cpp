@@ -4,7 +4,7 @@ namespace dicot::app {
 
 std::string path_from(const std::string& folder, const std::string& path)
 {
-    if (folder.empty() || path.starts_with('/'))
+    if (folder.empty() || path.empty() || path.starts_with('/'))
         return path;
     if (path == "." || path == "./")
         return folder;

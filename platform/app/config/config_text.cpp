@@ -84,7 +84,7 @@ struct AllowedOf
         return R"("" (the first one found), "port:1-1.2", "serial:ABC" or "replay:FOLDER")";
     }
     std::string operator()(const ChoiceKey& key) const { return listed(key.choices, " or ", quoted); }
-    std::string operator()(const PathKey&) const { return "a path"; }
+    std::string operator()(const PathKey& key) const { return key.or_none ? R"(a path, or "")" : "a path"; }
     std::string operator()(const NameKey&) const
     {
         return R"("" (the host's name), or letters, digits, '.', '_' and '-', 63 at most and no date)";

@@ -91,7 +91,7 @@ struct Taker
     bool operator()(const PathKey& key) const
     {
         const auto* text = std::get_if<std::string>(&value);
-        if (text == nullptr || !is_path(*text))
+        if (text == nullptr || !(is_path(*text) || (key.or_none && text->empty())))
             return false;
         key.reach(config) = *text;
         return true;

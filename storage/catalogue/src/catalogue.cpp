@@ -5,6 +5,8 @@
 #include "sqlite_heap.h"
 #include "statement.h"
 
+#include "dicot/os/clock_trust.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -38,6 +40,7 @@ public:
     Result<std::optional<SlotRow>> find(std::int64_t sequence) override;
     Result<std::int64_t> last_sequence() override;
     Status for_each(const SlotQuery& query, FunctionRef<bool(const SlotRow&)> visit) override;
+    Result<std::optional<SlotRow>> newest_planned(std::int64_t since_us) override;
     Result<SlotTotals> totals() override;
     Result<SlotPace> pace() override;
     Status begin() override { return database_.run("BEGIN IMMEDIATE"); }
@@ -146,6 +149,17 @@ Status SqlCatalogue::for_each(const SlotQuery& query, FunctionRef<bool(const Slo
         range.first = std::max(range.first, oldest);
     }
     return walk(range, false, [&](const SlotRow& row) { return !fits(row, query) || visit(row); });
+}
+
+Result<std::optional<SlotRow>> SqlCatalogue::newest_planned(std::int64_t since_us)
+{
+    std::optional<SlotRow> newest;
+    TRY(walk({}, true, [&](const SlotRow& row) {
+        if (row.due_us && *row.due_us >= since_us && row.clock_trust.view() != name_of(ClockTrust::kNotSet))
+            newest = row;
+        return !newest;
+    }));
+    return newest;
 }
 
 Result<SlotTotals> SqlCatalogue::totals()

@@ -49,6 +49,30 @@ std::optional<SnapshotName> parse_snapshot_name(std::string_view text)
     return name;
 }
 
+ShortText<63> part_name(const PartName& part)
+{
+    const ShortText<31> name = snapshot_name(part.name);
+    if (!part.due_us)
+        return name.view();
+    char text[64];
+    std::snprintf(text, sizeof text, "%s_%s", name.c_str(), utc_stamp(*part.due_us).c_str());
+    return text;
+}
+
+std::optional<PartName> parse_part_name(std::string_view text)
+{
+    if (const auto name = parse_snapshot_name(text))
+        return PartName{*name, {}};
+    const std::size_t cut = text.rfind('_');
+    if (cut == std::string_view::npos)
+        return {};
+    const auto name = parse_snapshot_name(text.substr(0, cut));
+    const auto due = parse_utc_stamp(text.substr(cut + 1));
+    if (!name || !due)
+        return {};
+    return PartName{*name, due};
+}
+
 bool is_day_name(std::string_view text)
 {
     constexpr std::size_t kDayLength = 10;

@@ -26,6 +26,8 @@ struct SnapshotName
 {
     std::int64_t sequence = 0;
     std::int64_t began_us = 0; ///< whole seconds
+
+    friend bool operator==(const SnapshotName&, const SnapshotName&) = default;
 };
 
 /// "000017_20260601T120000Z": six digits or more, as few as possible.
@@ -34,6 +36,20 @@ ShortText<31> snapshot_name(const SnapshotName& name);
 SlotRow row_named(const SnapshotName& name);
 /// Only what snapshot_name() writes.
 std::optional<SnapshotName> parse_snapshot_name(std::string_view text);
+
+/// A snapshot that is being written: its name tells when it was planned, as nothing else of it may last.
+struct PartName
+{
+    SnapshotName name;
+    std::optional<std::int64_t> due_us; ///< whole seconds
+
+    friend bool operator==(const PartName&, const PartName&) = default;
+};
+
+/// "000017_20260601T120000Z", or "000017_20260601T120000Z_20260601T115930Z" of one that was planned.
+ShortText<63> part_name(const PartName& part);
+/// Only what part_name() writes.
+std::optional<PartName> parse_part_name(std::string_view text);
 
 /// Whether it is the name of a day's folder: "2026-06-01", a day that exists.
 bool is_day_name(std::string_view text);

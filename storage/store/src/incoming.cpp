@@ -31,9 +31,10 @@ private:
 
 } // namespace
 
-void Incoming::name_it(const SnapshotName& name)
+void Incoming::name_it(const PartName& part)
 {
-    part_ = join(kIncoming, snapshot_name(name).view());
+    const SnapshotName& name = part.name;
+    part_ = join(kIncoming, part_name(part).view());
     day_ = utc_day(name.began_us).view();
     target_ = folder_of(name.sequence, name.began_us).view();
     sums_ = {};
@@ -41,16 +42,16 @@ void Incoming::name_it(const SnapshotName& name)
     whole_ = false;
 }
 
-void Incoming::adopt(const SnapshotName& name, bool whole)
+void Incoming::adopt(const PartName& part, bool whole)
 {
-    name_it(name);
+    name_it(part);
     begun_ = true;
     whole_ = whole;
 }
 
-Status Incoming::begin(const SnapshotName& name)
+Status Incoming::begin(const PartName& part)
 {
-    name_it(name);
+    name_it(part);
     TRY(on_card(medium_.make_folder(part_.c_str()), part_.c_str(), "making a folder"));
     begun_ = true;
     return on_card(medium_.sync_folder(kIncoming), kIncoming, "syncing");

@@ -18,9 +18,9 @@ public:
     explicit Incoming(Medium& medium) : medium_(medium) {}
 
     /// Makes the folder, and the number lasts when it returns.
-    Status begin(const SnapshotName& name);
+    Status begin(const PartName& part);
     /// Takes up what another process left. A whole one is settled as it is.
-    void adopt(const SnapshotName& name, bool whole);
+    void adopt(const PartName& part, bool whole);
     bool begun() const { return begun_; }
     const StorePath& target() const { return target_; }
 
@@ -45,7 +45,7 @@ private:
     Status sync_day();
     void move_back();
 
-    void name_it(const SnapshotName& name);
+    void name_it(const PartName& part);
 
     Medium& medium_;
     bool begun_ = false;

@@ -18,15 +18,18 @@ constexpr std::size_t kLongestName = 64;
 constexpr std::uint64_t kBallastBytes = 256 * 1024;
 
 /// A record that says no more than the folder's name does.
-Status settle_interrupted(Medium& medium, const SnapshotName& name)
+Status settle_interrupted(Medium& medium, const PartName& part, const ShortText<159>& cause)
 {
     Incoming incoming(medium);
-    incoming.adopt(name, false);
+    incoming.adopt(part, false);
     TRY(incoming.take_back());
     RecordFacts facts;
-    facts.sequence = name.sequence;
-    facts.began_us = name.began_us;
-    facts.reason = kInterrupted;
+    facts.sequence = part.name.sequence;
+    facts.began_us = part.name.began_us;
+    facts.due_us = part.due_us;
+    char reason[256];
+    std::snprintf(reason, sizeof reason, "%s%s%s", kInterrupted, cause.empty() ? "" : ": ", cause.c_str());
+    facts.reason = reason;
     facts.clock_trust = "unknown";
     std::array<char, 1024> text{};
     const std::size_t bytes = write_plain_record(facts, "dicot " DICOT_VERSION, text);
@@ -34,32 +37,33 @@ Status settle_interrupted(Medium& medium, const SnapshotName& name)
     return incoming.settle().status();
 }
 
-Status settle_whole(Medium& medium, const SnapshotName& name)
+Status settle_whole(Medium& medium, const PartName& part)
 {
     Incoming incoming(medium);
-    incoming.adopt(name, true);
+    incoming.adopt(part, true);
     return incoming.settle().status();
 }
 
 Status end_one(Medium& medium, Catalogue& catalogue, const StorePath& leaf, const ReadingDesk& desk,
-               StartReport& report)
+               const ShortText<159>& cause, StartReport& report)
 {
     const StorePath part = join(kIncoming, leaf.view());
-    const auto name = parse_snapshot_name(leaf.view());
-    if (!name) {
+    const auto planned = parse_part_name(leaf.view());
+    if (!planned) {
         if (leaf.view().starts_with(kPulledMark)) // a mark that did not get to its place
             return on_card(medium.remove_file(part.c_str()), part.c_str(), "removing it");
         return quarantine(medium, part);
     }
-    const StorePath target = folder_of(name->sequence, name->began_us).view();
+    const SnapshotName& name = planned->name;
+    const StorePath target = folder_of(name.sequence, name.began_us).view();
     if (is_there(medium, target.c_str()))
         return quarantine(medium, part);
-    const bool whole = TRY(is_whole(medium, part, *name, desk));
-    const Status status = whole ? settle_whole(medium, *name) : settle_interrupted(medium, *name);
+    const bool whole = TRY(is_whole(medium, part, name, desk));
+    const Status status = whole ? settle_whole(medium, *planned) : settle_interrupted(medium, *planned, cause);
     if (!status.ok())
         return status.fault() == Fault::kBadData ? quarantine(medium, part) : status;
     ++(whole ? report.finished : report.interrupted);
-    return catalogue.put(TRY(row_of(medium, target, *name, desk)));
+    return catalogue.put(TRY(row_of(medium, target, name, desk)));
 }
 
 Result<std::int64_t> highest_name(Medium& medium, const char* folder)
@@ -67,8 +71,8 @@ Result<std::int64_t> highest_name(Medium& medium, const char* folder)
     std::int64_t highest = 0;
     const Errno listed = medium.list(folder, [&](const MediumEntry& entry) {
         // In quarantine names may have got an end.
-        if (const auto name = parse_snapshot_name(entry.name.substr(0, entry.name.find('.'))))
-            highest = std::max(highest, name->sequence);
+        if (const auto part = parse_part_name(entry.name.substr(0, entry.name.find('.'))))
+            highest = std::max(highest, part->name.sequence);
         return true;
     });
     TRY(on_card(listed, folder, "listing it"));
@@ -170,7 +174,8 @@ Result<bool> add_rows(Medium& medium, Catalogue& catalogue, const ReadingDesk& d
     return all && walked.value();
 }
 
-Status end_interrupted(Medium& medium, Catalogue& catalogue, const ReadingDesk& desk, StartReport& report)
+Status end_interrupted(Medium& medium, Catalogue& catalogue, const ReadingDesk& desk, const ShortText<159>& cause,
+                       StartReport& report)
 {
     std::array<StorePath, kMostLeftOvers> names;
     std::size_t count = 0;
@@ -183,7 +188,7 @@ Status end_interrupted(Medium& medium, Catalogue& catalogue, const ReadingDesk& 
     std::sort(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(count),
               [](const StorePath& a, const StorePath& b) { return a.view() < b.view(); });
     for (std::size_t i = 0; i < count; ++i)
-        if (!end_one(medium, catalogue, names[i], desk, report).ok())
+        if (!end_one(medium, catalogue, names[i], desk, cause, report).ok())
             ++report.left_over;
     return {};
 }

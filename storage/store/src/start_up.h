@@ -31,8 +31,9 @@ Result<bool> add_rows(Medium& medium, Catalogue& catalogue, const ReadingDesk& d
                       std::int64_t& highest, Unreadable unreadable = Unreadable::kLeftOut);
 
 /// Every snapshot in incoming/ gets its place: as it is if it is whole, else as a miss. What cannot be mended goes to
-/// quarantine, or stays: it never blocks the start.
-Status end_interrupted(Medium& medium, Catalogue& catalogue, const ReadingDesk& desk, StartReport& report);
+/// quarantine, or stays: it never blocks the start. `cause`: as StoreRules has it.
+Status end_interrupted(Medium& medium, Catalogue& catalogue, const ReadingDesk& desk, const ShortText<159>& cause,
+                       StartReport& report);
 
 /// The highest number that was ever given, by the rows and by the names in all rooms.
 Result<std::int64_t> last_sequence_of(Medium& medium, Catalogue& catalogue);

@@ -22,6 +22,14 @@ constexpr std::uint64_t kLeastSnapshotBytes = std::uint64_t{4} << 20; ///< while
 constexpr std::uint64_t kRoomForSnapshots = 8; ///< as many are let go at once, so that one sync serves them all
 constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
 
+/// As names and records have it.
+std::int64_t second_of(std::int64_t us)
+{
+    constexpr std::int64_t kSecondUs = 1'000'000;
+    const std::int64_t kept = std::clamp(us, kFirstUtcUs, kLastUtcUs);
+    return kept - ((kept % kSecondUs) + kSecondUs) % kSecondUs;
+}
+
 class CardStore final : public Store
 {
 public:
@@ -94,7 +102,7 @@ Status CardStore::start(const std::string& path, const char* vfs)
     last_ = std::max(last_, TRY(last_sequence_of(medium_, *catalogue_)));
     if (last_ > TRY(catalogue_->last_sequence())) // of an older day, or folders were copied in
         rows_missing_ = !TRY(add_rows(medium_, *catalogue_, desk_, report_, last_)) || rows_missing_;
-    TRY(end_interrupted(medium_, *catalogue_, desk_, report_));
+    TRY(end_interrupted(medium_, *catalogue_, desk_, rules_.cause, report_));
     rows_missing_ = rows_missing_ || report_.left_over > 0;
     keep_ballast(medium_, rules_.reserve_bytes);
     return {};
@@ -119,22 +127,22 @@ Status CardStore::open_catalogue_and_rows(const std::string& path, const char* v
 Status CardStore::begin(const SlotTime& time)
 {
     if (incoming_.begun())
-        TRY(end_interrupted(medium_, *catalogue_, desk_, report_));
+        TRY(end_interrupted(medium_, *catalogue_, desk_, rules_.cause, report_));
     if (row_owed_)
         row_owed_ = !add_rows(medium_, *catalogue_, desk_, report_, last_).ok();
     TRY(mark_.make_sure());
     if (last_ >= kMaxSequence)
         return failure(Fault::kBadData, "the sequence numbers have come to their end at %lld; begin a new store",
                        static_cast<long long>(last_));
-    constexpr std::int64_t kSecondUs = 1'000'000;
-    time_ = time;
-    time_.began_us = std::clamp(time.began_us, kFirstUtcUs, kLastUtcUs);
-    time_.began_us -= ((time_.began_us % kSecondUs) + kSecondUs) % kSecondUs;
+    time_.began_us = second_of(time.began_us);
+    time_.due_us.reset();
+    if (time.due_us)
+        time_.due_us = second_of(*time.due_us);
     ++last_; // whatever comes out: the folder may be there although it could not be said
-    const SnapshotName name{last_, time_.began_us};
-    Status status = incoming_.begin(name);
+    const PartName part{{last_, time_.began_us}, time_.due_us};
+    Status status = incoming_.begin(part);
     if (!status.ok() && !incoming_.begun() && release_ballast(medium_))
-        status = incoming_.begin(name);
+        status = incoming_.begin(part);
     return status;
 }
 

@@ -92,6 +92,8 @@ public:
     virtual Result<std::int64_t> last_sequence() = 0; ///< 0: no row
     /// In ascending order of sequence until `visit` returns false.
     virtual Status for_each(const SlotQuery& query, FunctionRef<bool(const SlotRow&)> visit) = 0;
+    /// The newest row that was planned for `since_us` or later on a clock that was not known to be wrong.
+    virtual Result<std::optional<SlotRow>> newest_planned(std::int64_t since_us) = 0;
     virtual Result<SlotTotals> totals() = 0;
     virtual Result<SlotPace> pace() = 0;
 

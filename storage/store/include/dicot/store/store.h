@@ -29,9 +29,10 @@ struct StoreRules
 {
     std::uint64_t reserve_bytes = std::uint64_t{256} << 20; ///< of the file system, left to others
     Prune prune = Prune::kPulled;
+    ShortText<159> cause{}; ///< why a snapshot that the start finds begun was not finished, if it is known
 };
 
-/// When a slot was planned, and when it began. Microseconds since 1970, UTC.
+/// When a slot was planned, and when it began. Microseconds since 1970, UTC; the second that each lies in is kept.
 struct SlotTime
 {
     std::int64_t began_us = 0;
