@@ -38,6 +38,7 @@ constexpr const char* kMoments = R"("06:30", "sunrise" or "sunset", these also a
 constexpr const char* kIntervals = R"("" (not), or a time from 1m to 24h, as "30m", "2h" or "1h30m")";
 constexpr const char* kClocks = R"(a time from "00:00" to "24:00")";
 constexpr int kMostReserveMib = 1 << 20;
+constexpr int kMostMemoryMib = 1 << 20;
 constexpr double kFarthestMm = 1'000'000; // as for calibrate
 
 bool is_moment(std::string_view text)
@@ -159,6 +160,8 @@ const ConfigKey kKeys[] = {
      PathKey{reach<std::string, &Config::run, &RunConfig::state>()}},
     {"run", "lock_memory", "", "Its memory stays in RAM, where the system allows it",
      FlagKey{reach<bool, &Config::run, &RunConfig::lock_memory>()}},
+    {"run", "most_memory_mib", "MiB", "Of memory that dicot run may take; more is refused at its start; 0: no limit",
+     WholeKey{reach<int, &Config::run, &RunConfig::most_memory_mib>(), 0, kMostMemoryMib, {}}},
 };
 
 } // namespace
