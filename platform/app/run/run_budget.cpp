@@ -24,7 +24,7 @@ constexpr std::size_t kGuardBytes = 64 * kKiB; ///< below a stack: a page, of 64
 constexpr std::size_t kCatalogueResidentBytes = 2 * kMiB;
 constexpr std::size_t kRecordBytes = kRecordHeapBytes + kMaxRecordBytes + 64 * kKiB;
 
-constexpr std::size_t kOfficeBytes = kMiB;
+constexpr std::size_t kOfficeBytes = 512 * kKiB; // recorded pictures: 52 KiB seen over 10,000 slots
 constexpr std::size_t kLibrariesBytes = 2 * kMiB;
 
 RunBudget::Part with(RunBudget::Part part, std::size_t resident, std::size_t mapped)
@@ -67,7 +67,8 @@ Result<RunBudget> run_budget(const Config& config, const BareProcess& bare, cons
         with(budget.program, bare.resident_bytes + kWorkingBytes, bare.address_bytes + kHeapGrowthBytes + stacks);
     budget.clouds = with(budget.clouds, clouds.total(), clouds.total() + 2 * kGuardBytes);
     const std::size_t desk = MemoryReserve::bytes_for(kRecordBytes);
-    budget.store = with(budget.store, kCatalogueResidentBytes + desk, Catalogue::kHeapBytes + desk);
+    budget.store =
+        with(budget.store, kCatalogueResidentBytes + desk, Catalogue::kHeapBytes + 2 * desk); // one before the seal
     budget.cameras = with(budget.cameras, cameras.frames, cameras.frames + cameras.kernels);
     budget.pages = cameras.frames + desk;
     const std::size_t office = kOfficeBytes + cameras.office;
