@@ -52,7 +52,7 @@ struct FlatPair
     /// pairs/, rig.yaml and dicot.toml, whose path it returns; `more`: further sections.
     std::string write(const TempFolder& folder, double near_mm, double far_mm, const std::string& more = "") const
     {
-        std::filesystem::create_directory(folder.path("pairs"));
+        std::filesystem::create_directories(folder.path("pairs"));
         folder.write("pairs/left01.ppm", side(false));
         folder.write("pairs/right01.ppm", side(true));
         folder.write("rig.yaml", rig(near_mm, far_mm));
