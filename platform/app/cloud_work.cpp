@@ -74,7 +74,8 @@ Status CloudWork::see(PairSource& source, const PictureNames& names, FileShelf& 
     Matcher matcher = TRY(Matcher::make(width, height, plan_.match, *plan_.kernels, plan_.threads, stage));
     const DisparityMap map = [&] {
         if (!shows_progress)
-            return matcher.match(left, right, crew_, {nullptr, [](void*, int, int) { StageWatch::progress(); }, nullptr})
+            return matcher
+                .match(left, right, crew_, {nullptr, [](void*, int, int) { StageWatch::progress(); }, nullptr})
                 .map;
         Progress progress("matching");
         return matcher.match(left, right, crew_, {nullptr, Progress::rows_done, &progress}).map;

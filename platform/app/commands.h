@@ -22,6 +22,7 @@ void add_export(CLI::App& program, Command& chosen);
 void add_info(CLI::App& program, Command& chosen);
 void add_memory(CLI::App& program, Command& chosen);
 void add_run(CLI::App& program, Command& chosen);
+void add_schedule(CLI::App& program, Command& chosen);
 void add_selftest(CLI::App& program, Command& chosen);
 void add_show(CLI::App& program, Command& chosen);
 void add_snap(CLI::App& program, Command& chosen);

@@ -18,7 +18,7 @@ packages=$packages,libmd-dev,nlohmann-json3-dev,libeigen3-dev,zlib1g-dev,libusb-
 
 checkout=$(cd "$(dirname "$0")/../.." && pwd)
 sysroot=$checkout/.cache/sysroot-$arch
-recipe="$release $arch $packages"
+recipe="2 $release $arch $packages"
 if [ "$(cat "$sysroot/recipe" 2>/dev/null)" = "$recipe" ]; then
     echo "$sysroot"
     exit 0
@@ -40,8 +40,8 @@ fi
 mkdir -p "$checkout/.cache"
 fresh=$(mktemp -d "$checkout/.cache/sysroot-$arch.XXXXXX")
 trap 'rm -rf "$fresh"' EXIT
-mmdebstrap --quiet --variant=extract --architectures="$arch" --include="$packages" "$release" "$fresh" \
-    "deb $mirror $release main" >&2
+mmdebstrap --quiet --variant=extract --architectures="$arch" --include="$packages" \
+    --extract-hook="sh '$checkout/toolchain/cross/keep_packages.sh' \"\$1\"" "$release" "$fresh" "deb $mirror $release main" >&2
 chmod 755 "$fresh"
 
 # Absolute links would lead out of the sysroot into the machine itself.
