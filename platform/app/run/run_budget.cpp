@@ -6,6 +6,8 @@
 #include "dicot/os/thread_crew.h"
 #include "dicot/record/record.h"
 
+#include <cstdint>
+
 namespace dicot::app {
 namespace {
 
@@ -76,7 +78,7 @@ Result<RunBudget> run_budget(const Config& config, const BareProcess& bare, cons
     budget.office = with(budget.office, office, office);
     const std::size_t libraries = kLibrariesBytes + cameras.libraries;
     budget.libraries = with(budget.libraries, libraries, libraries);
-    const auto most = static_cast<std::size_t>(config.run.most_memory_mib) * kMiB;
+    const std::uint64_t most = static_cast<std::uint64_t>(config.run.most_memory_mib) * kMiB;
     if (most != 0 && budget.resident() > most)
         return failure(Fault::kConfig,
                        "dicot run would take %.1f MiB of memory with these pictures, %d threads and these cameras, and "
