@@ -11,6 +11,7 @@ void add_calibrate(CLI::App& program, Command& chosen);
 void add_capture(CLI::App& program, Command& chosen);
 void add_config(CLI::App& program, Command& chosen);
 void add_evaluate(CLI::App& program, Command& chosen);
+void add_health(CLI::App& program, Command& chosen);
 void add_list(CLI::App& program, Command& chosen);
 void add_match(CLI::App& program, Command& chosen);
 void add_probe(CLI::App& program, Command& chosen);

@@ -54,6 +54,7 @@ int main(int argc, char** argv)
     app::add_schedule(program, chosen);
     app::add_snap(program, chosen);
     app::add_list(program, chosen);
+    app::add_health(program, chosen);
     app::add_show(program, chosen);
     app::add_verify(program, chosen);
     app::add_prune(program, chosen);
