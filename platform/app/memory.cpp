@@ -74,6 +74,8 @@ nlohmann::json json_of(const SnapshotBench& bench, const RunBudget& budget)
             {"threads", bench.plan.threads},
             {"parts", parts},
             {"compressor_bytes", bench.work->budget().encode},
+            {"match_bytes", bench.work->budget().match},
+            {"preview_bytes", bench.work->budget().preview},
             {"run_resident_bytes", budget.resident()},
             {"run_address_bytes", budget.mapped()}};
 }

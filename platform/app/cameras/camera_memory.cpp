@@ -21,13 +21,23 @@ constexpr std::size_t kMostNamesBytes = std::size_t{8} << 20; ///< of 10,000 rec
 /// Eight transfers of 32 packets of 3072 bytes each, the most of a high-speed endpoint (USB 2.0, 5.6.3).
 constexpr std::size_t kHighSpeedTransferBytes = std::size_t{8} * 32 * 3072;
 
+/// Two bytes for each sample of a progressive JPEG; that of a camera is never one.
+std::size_t coefficients_of(RigStream& rig)
+{
+    const bool is_jpeg = rig.left().modes().front().format == PixelFormat::kMjpeg ||
+                         rig.right().modes().front().format == PixelFormat::kMjpeg;
+    constexpr std::size_t kBlock = 16; // px, of 4:2:0
+    const auto side = [](int px) { return (static_cast<std::size_t>(px) + kBlock - 1) / kBlock * kBlock; };
+    return is_jpeg ? 2 * 3 * side(rig.width()) * side(rig.height()) : 0;
+}
+
 Result<CameraMemory> of_recorded(const Config& config)
 {
     const MemoryBlock names = TRY(MemoryBlock::map(kMostNamesBytes));
     const LentHeap office{names.bytes()};
     try {
-        const RigStream rig = TRY(RigStream::open(config, Pace::kAtOnce));
-        return CameraMemory{rig.reserved_bytes(), 0, office.peak_bytes()};
+        RigStream rig = TRY(RigStream::open(config, Pace::kAtOnce));
+        return CameraMemory{rig.reserved_bytes(), 0, coefficients_of(rig), office.peak_bytes()};
     } catch (const std::bad_alloc&) {
         return failure(Fault::kConfig, "%s holds more recorded pictures than %zu MiB can name: move some away",
                        config.cameras.left.what.c_str(), kMostNamesBytes >> 20);
@@ -45,7 +55,7 @@ CameraMemory of_usb(const Config& config)
             most = std::max(most, UvcCamera::memory_bytes(one.device, options));
     const bool through_kernel = config.cameras.driver == "v4l2";
     const std::size_t kernels = config.cameras.driver == "uvc" ? 0 : V4l2Camera::kSlots * options.slot_bytes;
-    return {through_kernel ? 0 : 2 * MemoryReserve::bytes_for(most), 2 * kernels, 0};
+    return {through_kernel ? 0 : 2 * MemoryReserve::bytes_for(most), 2 * kernels, 0, 0};
 }
 
 } // namespace

@@ -16,12 +16,14 @@
 
 #if DICOT_GATE_REPLACES
 extern "C" {
+// NOLINTBEGIN(bugprone-reserved-identifier)
 // What glibc calls its own, for programs that replace them.
 void* __libc_malloc(std::size_t bytes) noexcept;
 void* __libc_calloc(std::size_t count, std::size_t bytes) noexcept;
 void* __libc_realloc(void* block, std::size_t bytes) noexcept;
 void* __libc_memalign(std::size_t alignment, std::size_t bytes) noexcept;
 void __libc_free(void* block) noexcept;
+// NOLINTEND(bugprone-reserved-identifier)
 }
 #endif
 
