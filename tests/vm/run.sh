@@ -28,7 +28,8 @@ while [ $# -gt 1 ]; do
         --log) log=$2 ;;
         --own-clock)
             # Nothing may pass while the disk works: no flush of ours, and a guest that looks up every 4 ms.
-            clock="-icount shift=3,sleep=off -rtc clock=vm,base=$2"
+            sh "$(dirname "$0")/sleeper.sh" "$image.dtb" || exit
+            clock="-icount shift=3,sleep=off -rtc clock=vm,base=$2 -dtb $image.dtb"
             kernel_words='nohz=off' flush=',cache.no-flush=on'
             ;;
         --cut) end=$2 ;;
@@ -101,7 +102,7 @@ if [ -n "$complaints" ]; then
 fi
 if [ -n "$out" ] && [ "$end" = 'done' ] && grep -q '^dicot-vm: done$' "$log"; then
     mkdir -p "$out"
-    tar -x -f "$disk" -C "$out" || complain "what the machine handed out cannot be read"
+    tar -x -m -f "$disk" -C "$out" || complain "what the machine handed out cannot be read"
 fi
 if ! grep -q "^dicot-vm: $end\$" "$log"; then
     echo "the log ends so ($log):"

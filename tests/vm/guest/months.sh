@@ -3,7 +3,7 @@ clouds=/var/lib/dicot/clouds
 day=$(date -u +%F)
 export clouds day
 # Programs start slowly under emulation; a look now and then is enough.
-usleep() { sleep 0.5; }
+usleep() { sleep 1; }
 
 slots() { dicot list --store "$clouds" --json | grep '"sequence"'; }
 # A slot by its hour, as "10:40" of the day, or by day and hour; a line of JSON.
