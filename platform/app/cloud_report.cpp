@@ -51,6 +51,7 @@ nlohmann::json cloud_report(const CloudWork& work, const std::string& method, st
              {{"read", times.read_s},
               {"rectify", times.rectify_s},
               {"match", times.match_s},
+              {"drift", times.drift_s},
               {"triangulate", times.triangulate_s},
               {"encode", times.encode_s},
               {"write", times.write_s},

@@ -11,6 +11,7 @@
 #include "dicot/picture/write_picture.h"
 
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace dicot::app {
@@ -45,6 +46,7 @@ Status CloudWork::see(PairSource& source, const PictureNames& names, FileShelf& 
     StopWatch watch;
     times = {};
     StageWatch::enter("capture", stage_bound_us);
+    drift_ = {};
     const int width = plan_.rig.width;
     const int height = plan_.rig.height;
     Arena stage = bench_.next_stage();
@@ -74,12 +76,19 @@ Status CloudWork::see(PairSource& source, const PictureNames& names, FileShelf& 
     Matcher matcher = TRY(Matcher::make(width, height, plan_.match, *plan_.kernels, plan_.threads, stage));
     const DisparityMap map = [&] {
         if (!shows_progress)
-            return matcher.match(left, right, crew_, {nullptr, [](void*, int, int) { StageWatch::progress(); }, nullptr})
+            return matcher
+                .match(left, right, crew_, {nullptr, [](void*, int, int) { StageWatch::progress(); }, nullptr})
                 .map;
         Progress progress("matching");
         return matcher.match(left, right, crew_, {nullptr, Progress::rows_done, &progress}).map;
     }();
     times.match_s = watch.lap_s();
+    // In the memory where disparities are painted later: it is larger than what the measurement takes.
+    Arena beside{std::as_writable_bytes(
+        std::span{painted.data, static_cast<std::size_t>(width) * static_cast<std::size_t>(height)})};
+    if (drift_scratch_bytes(width, height) <= beside.size())
+        drift_ = TRY(measure_drift(left, right, map, beside));
+    times.drift_s = watch.lap_s();
 
     Arena kept = bench_.kept;
     const Triangulated seen = triangulate(map, left, plan_.triangulation, kept);

@@ -7,6 +7,7 @@
 
 #include "dicot/base/image.h"
 #include "dicot/codec/encode_cloud.h"
+#include "dicot/drift/drift.h"
 #include "dicot/os/clock.h"
 #include "dicot/os/thread_crew.h"
 
@@ -31,7 +32,8 @@ protected:
 
 struct StageTimes
 {
-    double read_s = 0, rectify_s = 0, match_s = 0, triangulate_s = 0, encode_s = 0, write_s = 0, pictures_s = 0;
+    double read_s = 0, rectify_s = 0, match_s = 0, drift_s = 0, triangulate_s = 0, encode_s = 0, write_s = 0,
+           pictures_s = 0;
 };
 
 /// Seconds since it was asked last.
@@ -76,6 +78,8 @@ public:
 
     const PointCloud& cloud() const noexcept { return cloud_; }
     const PixelCount& pixels() const noexcept { return pixels_; }
+    /// How far the rows of the pair were apart; not known of one that was not matched.
+    const EpipolarDrift& drift() const noexcept { return drift_; }
     const EncodedCloud& encoded() const noexcept { return encoded_; }
     const ProcessBudget& budget() const noexcept { return bench_.budget(); }
     const CloudPlan& plan() const noexcept { return plan_; }
@@ -90,6 +94,7 @@ private:
     ThreadCrew crew_;
     PointCloud cloud_;
     PixelCount pixels_;
+    EpipolarDrift drift_;
     EncodedCloud encoded_;
 };
 

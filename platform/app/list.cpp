@@ -3,6 +3,7 @@
 #include "store/shown.h"
 #include "store/slot_words.h"
 #include "store/store_outcome.h"
+#include "store/store_summary.h"
 #include "store/store_words.h"
 
 #include <nlohmann/json.hpp>
@@ -44,37 +45,7 @@ Result<SlotQuery> query_of(const Words& words)
     return query;
 }
 
-/// What is told of a store beside its rows.
-struct Summary
-{
-    SlotTotals totals;
-    SlotPace pace;
-    MediumSpace space;
-    std::uint64_t reserve_bytes = 0;
-
-    double room_bytes() const
-    {
-        return space.free_bytes > reserve_bytes ? static_cast<double>(space.free_bytes - reserve_bytes) : 0;
-    }
-    /// None: it is not known how fast the card fills.
-    std::optional<double> days_left() const
-    {
-        return pace.bytes_per_day > 0 ? std::optional{room_bytes() / pace.bytes_per_day} : std::nullopt;
-    }
-};
-
-Result<Summary> summary_of(ReadStore& store, const StoreRules& rules, const std::string& path)
-{
-    Summary summary;
-    summary.totals = TRY(store.catalogue->totals());
-    summary.pace = TRY(store.catalogue->pace());
-    summary.reserve_bytes = rules.reserve_bytes;
-    if (!store.medium->space(summary.space).ok())
-        return failure(Fault::kIoError, "%s: the file system does not tell its free space", shown(path).c_str());
-    return summary;
-}
-
-void print(const Summary& summary)
+void print(const StoreSummary& summary)
 {
     const SlotTotals& totals = summary.totals;
     std::printf("%s: %lld done, %lld missed; %lld pulled, %lld pruned, %lld in quarantine, %lld lost; %s here\n",
@@ -84,43 +55,14 @@ void print(const Summary& summary)
                 static_cast<long long>(totals.lost), shown_bytes(static_cast<double>(totals.bytes_here)).c_str());
     std::printf("%s free, %s of it reserved: ", shown_bytes(static_cast<double>(summary.space.free_bytes)).c_str(),
                 shown_bytes(static_cast<double>(summary.reserve_bytes)).c_str());
-    constexpr double kManyYears = 3650;
-    const std::optional<double> days = summary.days_left();
-    if (!days)
-        std::printf("how long that lasts is not known yet\n");
-    else if (*days > kManyYears)
-        std::printf("room for more than ten years at %s a day\n", shown_bytes(summary.pace.bytes_per_day).c_str());
-    else
-        std::printf("room for %.1f days at %s a day\n", *days, shown_bytes(summary.pace.bytes_per_day).c_str());
-}
-
-nlohmann::json summary_json(const Summary& summary)
-{
-    const SlotTotals& totals = summary.totals;
-    const std::optional<double> days = summary.days_left();
-    return {{"slots", totals.slots},
-            {"done", totals.done},
-            {"missed", totals.missed},
-            {"pulled", totals.pulled},
-            {"pruned", totals.pruned},
-            {"quarantined", totals.quarantined},
-            {"lost", totals.lost},
-            {"bytes_here", totals.bytes_here},
-            {"bytes_per_day",
-             summary.pace.bytes_per_day > 0 ? nlohmann::json(summary.pace.bytes_per_day) : nlohmann::json()},
-            {"bytes_per_snapshot", summary.pace.bytes_per_snapshot},
-            {"largest_snapshot_bytes", summary.pace.most_bytes},
-            {"free_bytes", summary.space.free_bytes},
-            {"total_bytes", summary.space.total_bytes},
-            {"reserve_bytes", summary.reserve_bytes},
-            {"days_left", days ? nlohmann::json(*days) : nlohmann::json()}};
+    std::printf("%s\n", room_words(summary).c_str());
 }
 
 /// A table; a store of years is printed as it is read.
 Status list_as_text(const DeviceFolder& device, const StoreRules& rules, const SlotQuery& query, bool first)
 {
     ReadStore store = TRY(ReadStore::open(device.path));
-    const Summary summary = TRY(summary_of(store, rules, device.path));
+    const StoreSummary summary = TRY(store_summary(store, rules, device.path));
     std::printf("%s%s\n%-15s  %s\n", first ? "" : "\n", shown(device.path).c_str(), "device", slot_heading().c_str());
     const std::string name = shown(device.device);
     std::int64_t rows = 0;
@@ -139,7 +81,7 @@ Status list_as_text(const DeviceFolder& device, const StoreRules& rules, const S
 Status list_as_json(const DeviceFolder& device, const StoreRules& rules, const SlotQuery& query)
 {
     ReadStore store = TRY(ReadStore::open(device.path));
-    const Summary summary = TRY(summary_of(store, rules, device.path));
+    const StoreSummary summary = TRY(store_summary(store, rules, device.path));
     std::printf(", \"summary\": %s, \"slots\": [", json_text(summary_json(summary), -1).c_str());
     const char* before_row = "\n";
     const Status listed = store.catalogue->for_each(query, [&](const SlotRow& row) {

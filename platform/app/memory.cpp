@@ -1,9 +1,13 @@
 // dicot memory: what a configuration will take, before it takes it.
 #include "cameras/shot.h"
 #include "commands.h"
+#include "config_words.h"
 #include "match_bench.h"
 #include "match_words.h"
 #include "process_bench.h"
+#include "run/run_budget.h"
+#include "run/run_memory.h"
+#include "snapshot.h"
 
 #include "dicot/catalogue/catalogue.h"
 #include "dicot/os/process_memory.h"
@@ -34,10 +38,61 @@ std::size_t uvc_camera_bytes(int width, int height)
 struct Words
 {
     MatchWords match;
+    ConfigWords config;
     int width = 640;
     int height = 480;
     bool json = false;
 };
+
+void line(const char* what, std::size_t bytes)
+{
+    std::printf("%-36s %8.1f MiB\n", what, static_cast<double>(bytes) / (1 << 20));
+}
+
+void print(const SnapshotBench& bench, const RunBudget& budget)
+{
+    std::printf("%d x %d px, %d disparities, %d threads; what dicot run takes at most:\n", bench.plan.rig.width,
+                bench.plan.rig.height, bench.plan.match.disparities, bench.plan.threads);
+    std::printf("%-36s %12s %18s\n", "", "resident", "address space");
+    const auto row = [](const char* what, std::size_t resident, std::size_t mapped) {
+        std::printf("%-36s %8.1f MiB %14.1f MiB\n", what, static_cast<double>(resident) / (1 << 20),
+                    static_cast<double>(mapped) / (1 << 20));
+    };
+    for (const RunBudget::Part& part : budget.parts())
+        row(part.name, part.resident, part.mapped);
+    row("dicot run", budget.resident(), budget.mapped());
+}
+
+nlohmann::json json_of(const SnapshotBench& bench, const RunBudget& budget)
+{
+    nlohmann::json parts = nlohmann::json::object();
+    for (const RunBudget::Part& part : budget.parts())
+        parts[part.key] = {{"resident_bytes", part.resident}, {"address_bytes", part.mapped}};
+    return {{"width", bench.plan.rig.width},
+            {"height", bench.plan.rig.height},
+            {"disparities", bench.plan.match.disparities},
+            {"threads", bench.plan.threads},
+            {"parts", parts},
+            {"compressor_bytes", bench.work->budget().encode},
+            {"run_resident_bytes", budget.resident()},
+            {"run_address_bytes", budget.mapped()}};
+}
+
+/// Of one configuration, with its rig file, and its recorded pictures or the cameras that are plugged in.
+Status run_of_config(const Words& words)
+{
+    RunMemory::keep_address_space_known();
+    const LoadedConfig loaded = TRY(words.config.load());
+    const BareProcess bare = TRY(BareProcess::measure());
+    const std::unique_ptr<SnapshotBench> bench = TRY(SnapshotBench::make(loaded.config));
+    const CameraMemory cameras = TRY(CameraMemory::measure(loaded.config));
+    const RunBudget budget = TRY(run_budget(loaded.config, bare, cameras, bench->work->budget(), bench->plan.threads));
+    if (words.json)
+        std::printf("%s\n", json_of(*bench, budget).dump(2).c_str());
+    else
+        print(*bench, budget);
+    return {};
+}
 
 Status run(const Words& words)
 {
@@ -69,9 +124,6 @@ Status run(const Words& words)
         std::printf("%s\n", report.dump(2).c_str());
         return {};
     }
-    const auto line = [](const char* what, std::size_t bytes) {
-        std::printf("%-36s %8.1f MiB\n", what, static_cast<double>(bytes) / (1 << 20));
-    };
     std::printf("%d x %d px, %d disparities, %d threads\n", words.width, words.height, words.match.options.disparities,
                 threads);
     line("program, libraries, stacks", program);
@@ -95,6 +147,7 @@ void add_memory(CLI::App& program, Command& chosen)
 {
     CLI::App* command = program.add_subcommand("memory", "Memory that a configuration takes");
     auto words = std::make_shared<Words>();
+    words->config.add_to(*command);
     command->add_option("--width", words->width, "picture width, px")->capture_default_str();
     command->add_option("--height", words->height, "picture height, px")->capture_default_str();
     command->add_option("--disparities", words->match.options.disparities, "width of the search range, px")
@@ -102,7 +155,9 @@ void add_memory(CLI::App& program, Command& chosen)
     command->add_flag("--dense", words->match.options.dense, "as for match");
     words->match.add_to(*command);
     command->add_flag("--json", words->json, "report as JSON");
-    command->callback([words, &chosen] { chosen = [words] { return run(*words); }; });
+    command->callback([words, &chosen] {
+        chosen = [words] { return words->config.file.empty() ? run(*words) : run_of_config(*words); };
+    });
 }
 
 } // namespace dicot::app

@@ -4,6 +4,7 @@
 #include "output_folder.h"
 #include "run/board_time.h"
 #include "run/journal.h"
+#include "run/run_memory.h"
 #include "run/series.h"
 #include "run/told_time.h"
 #include "stop_request.h"
@@ -80,8 +81,28 @@ Status check(const Words& words, const Config& config, const Schedule& schedule)
     return {};
 }
 
+/// Everything that the series will ever take. Without a bench every slot is a miss, which takes none for clouds.
+Result<std::unique_ptr<RunMemory>> carve_memory(const Config& config, const BareProcess& bare,
+                                                const Result<std::unique_ptr<SnapshotBench>>& bench)
+{
+    CameraMemory cameras;
+    ProcessBudget clouds;
+    if (bench.ok()) {
+        cameras = TRY(CameraMemory::measure(config));
+        clouds = bench.value()->work->budget();
+    }
+    const RunBudget budget =
+        TRY(run_budget(config, bare, cameras, clouds, bench.ok() ? bench.value()->plan.threads : 1));
+    std::unique_ptr<RunMemory> memory = TRY(RunMemory::carve(budget));
+    if (const Status locked = config.run.lock_memory ? RunMemory::lock_in_ram(budget) : Status{}; !locked.ok())
+        journal(Priority::kNotice, "%s", locked.message());
+    return memory;
+}
+
 Status go(const Words& words, const Config& config, const Schedule& schedule, const TimeZone& zone)
 {
+    RunMemory::keep_address_space_known();
+    const BareProcess bare = TRY(BareProcess::measure());
     const bool told = words.rehearsed > 0;
     Config used = config;
     used.run.state = told ? std::string{} : state_folder(config);
@@ -103,10 +124,12 @@ Status go(const Words& words, const Config& config, const Schedule& schedule, co
     how.raw = config.output.keep_raw;
     how.device = board.device;
     how.source = source_of(config, false);
+    const std::unique_ptr<RunMemory> memory = TRY(carve_memory(config, bare, bench));
     CamerasPower cameras(told ? CamerasBetween::kOn : cameras_between(config));
-    const auto in_office = [](FunctionRef<Status()> work) { return work(); };
+    const auto in_office = [&](FunctionRef<Status()> work) { return memory->safely(work); };
     Series series({config, schedule, zone, board, bench, *time, cameras, watch, in_office}, how);
     TRY(series.begin(cause_of(watch)));
+    memory->seal();
     watch.ready();
     if (words.once)
         return series.once();
@@ -129,8 +152,7 @@ void add_run(CLI::App& program, Command& chosen)
     CLI::App* command = program.add_subcommand("run", "Slot after slot by the schedule, for months");
     auto words = std::make_shared<Words>();
     words->config.add_to(*command);
-    command
-        ->add_option("-o,--output,--store", words->root, "folder of the store, as for snap (default: output.folder)")
+    command->add_option("-o,--output,--store", words->root, "folder of the store, as for snap (default: output.folder)")
         ->type_name("DIR");
     CLI::Option* once =
         command->add_flag("--once", words->once, "the slot that is due now, or else one that nobody planned; then end");

@@ -9,7 +9,6 @@
 #include "store/store_outcome.h"
 #include "store/store_words.h"
 
-
 #include <nlohmann/json.hpp>
 
 #include <cstdio>

@@ -201,9 +201,7 @@ Status record_miss(const Config& config, const SnapshotWords& how, const Status&
 
 const char* source_of(const Config& config, bool is_drawn) noexcept
 {
-    return is_drawn                                     ? "drawn pictures"
-           : config.cameras.left.by == BoundBy::kReplay ? "recorded pictures"
-                                                        : "cameras";
+    return is_drawn ? "drawn pictures" : config.cameras.left.by == BoundBy::kReplay ? "recorded pictures" : "cameras";
 }
 
 } // namespace dicot::app

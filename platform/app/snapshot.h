@@ -46,9 +46,9 @@ struct SnapshotTold
 {
     nlohmann::json record; ///< as record.json has it
     std::vector<std::string> warnings;
-    std::string folder;  ///< from the store's folder
-    Status status;       ///< ok, or why it was missed
-    bool stored = false; ///< a miss too: its record is in its place
+    std::string folder;                     ///< from the store's folder
+    Status status;                          ///< ok, or why it was missed
+    bool stored = false;                    ///< a miss too: its record is in its place
     std::optional<std::int64_t> pair_at_us; ///< monotonic_us() when the cameras had given their pair
 };
 

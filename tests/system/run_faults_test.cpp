@@ -41,10 +41,11 @@ protected:
             (void)test::run("timeout -s KILL " + after + " " + command("run --rehearse 40 --from " + from));
             return "killed after " + after + " s";
         }
-        const ToolRun run = kind == 5 ? test::run("(ulimit -f 4; " + command("run --rehearse " + std::to_string(slots) +
-                                                                              " --from " + from) + ")")
-                                      : rehearse(slots, from);
-        EXPECT_EQ(run.exit_code, 0) << run.output;
+        const ToolRun run =
+            kind == 5 ? test::run("(ulimit -f 4; " +
+                                  command("run --rehearse " + std::to_string(slots) + " --from " + from) + ")")
+                      : rehearse(slots, from);
+        EXPECT_TRUE(run.exit_code == 0 || (kind == 5 && run.exit_code == 74)) << run.output;
         return "kind " + std::to_string(kind) + ", " + std::to_string(slots) + " slots";
     }
 
@@ -57,7 +58,7 @@ TEST_F(RunWithFaults, EverySlotHasItsRow)
     const unsigned seed = given != nullptr ? static_cast<unsigned>(std::atoi(given)) : 1;
     std::printf("DICOT_RUN_SEED=%u\n", seed);
     random_.seed(seed);
-    const std::size_t wanted = heap_gate::replaces_operator_new() ? 500 : 60; // sanitizers take their time
+    const std::size_t wanted = heap_gate::replaces_operator_new() ? 500U : 60U; // sanitizers take their time
     std::int64_t clock_us = *parse_utc_text("2026-12-01T08:00:01Z");
     std::int64_t first_us = 0;
     std::string story;
@@ -76,7 +77,8 @@ TEST_F(RunWithFaults, EverySlotHasItsRow)
         ASSERT_EQ(all[i].sequence, static_cast<std::int64_t>(i) + 1) << story;
         ASSERT_EQ(all[i].due, utc_text(first_us + static_cast<std::int64_t>(i) * kStepUs).c_str()) << story;
         ASSERT_TRUE(all[i].done || !all[i].reason.empty()) << story;
-        done += all[i].done ? 1 : 0;
+        if (all[i].done)
+            ++done;
     }
     std::printf("%zu slots, %zu done, the others missed with a reason\n", all.size(), done);
     EXPECT_GT(done, all.size() / 10);

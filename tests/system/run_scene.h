@@ -59,7 +59,8 @@ protected:
             << "[cameras]\nleft = 'replay:pairs'\nright = 'replay:pairs'\n"
             << cameras << "[burst]\nframes = 1\n[matching]\nwindow = 3\nthreads = 1\n[rig]\nfile = 'rig.yaml'\n"
             << "[schedule]\ntimezone = 'UTC'\n"
-            << schedule << "[output]\nfolder = 'store'\ndevice = 'bench'\nreserve_mib = " << reserve_mib_ << "\n"
+            << schedule << "[output]\nfolder = 'store'\ndevice = 'bench'\nreserve_mib = " << reserve_mib_
+            << "\n[run]\nstate = 'state'\n"
             << more;
     }
 
@@ -97,8 +98,8 @@ protected:
     /// The record of a slot.
     nlohmann::json record(std::int64_t sequence) const
     {
-        return nlohmann::json::parse(
-            run("{ " + command("show --json " + std::to_string(sequence)) + " 2>/dev/null; }").output, nullptr, false);
+        const ToolRun told = run("{ " + command("show --json " + std::to_string(sequence)) + " 2>/dev/null; }");
+        return nlohmann::json::parse(told.output, nullptr, false).value("record", nlohmann::json::object());
     }
 
     TempFolder own_;

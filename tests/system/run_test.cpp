@@ -58,7 +58,8 @@ TEST_F(Run, SlotsThatPassedWhileItWasNotRunningAreRowsWithAReason)
     const std::vector<Row> all = rows();
     ASSERT_EQ(all.size(), 14U);
     for (std::size_t i = 0; i < all.size(); ++i) {
-        EXPECT_EQ(all[i].due, utc_text(at("2026-06-01T08:00:00Z") + static_cast<std::int64_t>(i) * 2 * kHourUs).c_str());
+        EXPECT_EQ(all[i].due,
+                  utc_text(at("2026-06-01T08:00:00Z") + static_cast<std::int64_t>(i) * 2 * kHourUs).c_str());
         EXPECT_EQ(all[i].done, i < 2 || i == 13) << i;
         if (!all[i].done) {
             EXPECT_THAT(all[i].reason, HasSubstr("dicot was not running"));
@@ -99,7 +100,7 @@ TEST_F(Run, OnceTakesWhatIsDueOrElseASnapshotThatNobodyPlanned)
     write_config("", "", "at = []\n");
     ASSERT_EQ(dicot("run --once").exit_code, 0);
     write_config("replay_script_left = 'gone 1'\n", "", "every = '1m'\n"); // there is always one due
-    EXPECT_EQ(dicot("run --once").exit_code, 0);
+    EXPECT_EQ(dicot("run --once").exit_code, 69);
     const ToolRun missed = dicot("run --once");
     const std::vector<Row> all = rows();
     ASSERT_GE(all.size(), 2U);

@@ -4,6 +4,7 @@
 #include "../config/config.h"
 #include "dicot/camera_rig/stereo_camera.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -34,6 +35,8 @@ public:
     virtual int width() const noexcept = 0;
     virtual int height() const noexcept = 0;
     virtual bool recorded() const noexcept = 0;
+    /// What it holds in blocks of pages, as a MemoryReserve counts it.
+    virtual std::size_t reserved_bytes() const noexcept = 0;
     /// The clock of recorded pictures at Pace::kAtOnce; else null.
     virtual std::int64_t* virtual_now_us() noexcept = 0;
 };

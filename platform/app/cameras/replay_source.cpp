@@ -3,6 +3,7 @@
 #include "../calibrate/pair_files.h"
 
 #include "dicot/os/clock.h"
+#include "dicot/os/memory_reserve.h"
 #include "dicot/replay/replay_camera.h"
 
 #include <array>
@@ -48,6 +49,11 @@ public:
     int width() const noexcept override { return left_.camera.modes().front().width; }
     int height() const noexcept override { return left_.camera.modes().front().height; }
     bool recorded() const noexcept override { return true; }
+    std::size_t reserved_bytes() const noexcept override
+    {
+        return MemoryReserve::bytes_for(left_.camera.memory_bytes()) +
+               MemoryReserve::bytes_for(right_.camera.memory_bytes());
+    }
     std::int64_t* virtual_now_us() noexcept override { return pace_ == Pace::kAtOnce ? &now_us_ : nullptr; }
 
     BandwidthPlan plan(int refused) override

@@ -32,6 +32,7 @@ public:
     int width() const noexcept { return source_->width(); } ///< px, of each picture
     int height() const noexcept { return source_->height(); }
     bool recorded() const noexcept { return source_->recorded(); }
+    std::size_t reserved_bytes() const noexcept { return source_->reserved_bytes(); } ///< as of CameraSource
     Camera& left() noexcept { return source_->left(); }
     Camera& right() noexcept { return source_->right(); }
     StereoCamera& cameras() noexcept { return *cameras_; }

@@ -84,11 +84,13 @@ void Shot::look_at(ImageView<const Rgb8> left, ImageView<const Rgb8> right, Aren
     figures_.left = luma_of(left);
     figures_.right = luma_of(right);
     figures_.views.reset();
-    if (!is_compared(left.width, left.height))
-        return;
     const Greys greys = take_greys(scratch, left.width, left.height);
     calibration::to_grey(left, greys.left);
     calibration::to_grey(right, greys.right);
+    figures_.left_focus = aiming::focus_of(greys.left);
+    figures_.right_focus = aiming::focus_of(greys.right);
+    if (!is_compared(left.width, left.height))
+        return;
     if (const Result<aiming::Views> views = aiming::compare_views(greys.left, greys.right, scratch); views.ok())
         figures_.views = views.value();
 }

@@ -5,6 +5,7 @@
 
 #include "../cloud_work.h"
 
+#include "dicot/aiming/focus.h"
 #include "dicot/aiming/views.h"
 #include "dicot/camera/luma.h"
 #include "dicot/camera_rig/burst.h"
@@ -18,7 +19,8 @@ namespace dicot::app {
 struct ShotFigures
 {
     BurstFigures burst;
-    LumaFigures left, right;            ///< of the pictures that were kept
+    LumaFigures left, right; ///< of the pictures that were kept
+    aiming::Focus left_focus, right_focus;
     std::optional<aiming::Views> views; ///< none: pictures of a size that is not compared
     std::int64_t taken_us = 0;          ///< since 1970, UTC, when the pair was there
     std::int64_t ready_us = 0;          ///< the same, as monotonic_us() has it

@@ -3,6 +3,7 @@
 #include "../probe_report.h"
 #include "camera_choice.h"
 
+#include "dicot/os/memory_reserve.h"
 #include "dicot/uvc/uvc_camera.h"
 
 #include <array>
@@ -17,6 +18,7 @@ struct Side
     std::vector<StreamOffer> offers;
     std::unique_ptr<V4l2Camera> kernel;
     std::unique_ptr<UvcCamera> direct;
+    std::size_t memory_bytes = 0;
 
     Camera& camera() noexcept { return kernel ? static_cast<Camera&>(*kernel) : *direct; }
 
@@ -54,6 +56,10 @@ public:
     int width() const noexcept override { return width_; }
     int height() const noexcept override { return height_; }
     bool recorded() const noexcept override { return false; }
+    std::size_t reserved_bytes() const noexcept override
+    {
+        return MemoryReserve::bytes_for(left_.memory_bytes) + MemoryReserve::bytes_for(right_.memory_bytes);
+    }
     std::int64_t* virtual_now_us() noexcept override { return nullptr; }
 
     BandwidthPlan plan(int refused) override
@@ -80,6 +86,7 @@ private:
         UvcOptions options;
         options.slot_bytes = largest_frame(config);
         side.direct = TRY(UvcCamera::open(port, options));
+        side.memory_bytes = UvcCamera::memory_bytes(side.direct->device(), options);
         side.offers = TRY(offers_for(config, side.camera()));
         for (StreamOffer& offer : side.offers)
             if (const Result<std::uint32_t> payload = side.direct->payload_bytes(offer.mode); payload.ok())

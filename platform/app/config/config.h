@@ -110,6 +110,7 @@ struct RunConfig
 {
     std::string state = "/var/lib/dicot/state"; ///< folder of what one start leaves for the next
     bool lock_memory = true;
+    int most_memory_mib = 0; ///< 0: no limit
 };
 
 /// Everything that a file may say, as its sections; what stands here is what holds without a file. Ranges and meanings:

@@ -81,11 +81,19 @@ Status check_power(const LoadedConfig& loaded, const char* file)
                            "%s:%d: [power] cameras = \"port\" needs cameras that are bound by port, as \"port:1-1.2\"; "
                            "dicot probe lists them",
                            file, line_of(loaded, "power", {"cameras"}));
-    constexpr std::size_t kMostDevice = 127, kMostState = 240;
-    if (config.power.rtc.size() > kMostDevice || config.watchdog.device.size() > kMostDevice ||
-        config.run.state.size() > kMostState)
-        return failure(Fault::kConfig,
-                       "%s: power.rtc, watchdog.device (127 bytes at most) or run.state (240) is too long", file);
+    const struct
+    {
+        const char* section;
+        const char* name;
+        const std::string& path;
+        std::size_t most;
+    } kept[] = {{"power", "rtc", config.power.rtc, 127},
+                {"watchdog", "device", config.watchdog.device, 127},
+                {"run", "state", config.run.state, 240}}; // they are kept without a heap
+    for (const auto& one : kept)
+        if (one.path.size() > one.most)
+            return failure(Fault::kConfig, "%s:%d: [%s] %s has %zu bytes: name a path of %zu at most", file,
+                           line_of(loaded, one.section, {one.name}), one.section, one.name, one.path.size(), one.most);
     return {};
 }
 

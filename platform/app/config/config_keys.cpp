@@ -38,6 +38,7 @@ constexpr const char* kMoments = R"("06:30", "sunrise" or "sunset", these also a
 constexpr const char* kIntervals = R"("" (not), or a time from 1m to 24h, as "30m", "2h" or "1h30m")";
 constexpr const char* kClocks = R"(a time from "00:00" to "24:00")";
 constexpr int kMostReserveMib = 1 << 20;
+constexpr int kMostMemoryMib = 1 << 20;
 constexpr double kFarthestMm = 1'000'000; // as for calibrate
 
 bool is_moment(std::string_view text)
@@ -122,6 +123,24 @@ const ConfigKey kKeys[] = {
     {"output", "keep_raw", "", "Both pictures are kept as the cameras saw them too, as PNG",
      FlagKey{reach<bool, &Config::output, &OutputConfig::keep_raw>()}},
 
+    {"schedule", "timezone", "", "Where clocks show the times below, daylight saving included, as Europe/Berlin",
+     WordKey{schedule_text<&ScheduleConfig::timezone>, is_zone_text, kZones}},
+    {"schedule", "at", "", "Times of the day at which dicot run takes a snapshot; dicot schedule lists what comes",
+     WordsKey{reach<std::vector<std::string>, &Config::schedule, &ScheduleConfig::at>(), is_moment, kMoments,
+              Schedule::kMostMoments}},
+    {"schedule", "every", "", "And one every so often, counted from from",
+     WordKey{schedule_text<&ScheduleConfig::every>, is_interval, kIntervals}},
+    {"schedule", "from", "", "Of every: the first one of each day",
+     WordKey{schedule_text<&ScheduleConfig::from>, is_clock, kClocks}},
+    {"schedule", "until", "", "Of every: none is later; 24:00 is the end of the day",
+     WordKey{schedule_text<&ScheduleConfig::until>, is_clock, kClocks}},
+    {"schedule", "latitude", "degrees", "Of the place, for sunrise and sunset; north is positive",
+     OpenNumberKey{reach<std::optional<double>, &Config::schedule, &ScheduleConfig::latitude>(), -90, 90}},
+    {"schedule", "longitude", "degrees", "Of the place; east is positive",
+     OpenNumberKey{reach<std::optional<double>, &Config::schedule, &ScheduleConfig::longitude>(), -180, 180}},
+    {"schedule", "late_min", "min", "A snapshot that could not begin so long after its time is missed",
+     WholeKey{reach<int, &Config::schedule, &ScheduleConfig::late_min>(), 0, 720, {}}},
+
     {"power", "between", "",
      "What the board does between two slots; off: it is powered off until the alarm of its clock",
      ChoiceKey{reach<std::string, &Config::power, &PowerConfig::between>(), kBetweens}},
@@ -141,24 +160,8 @@ const ConfigKey kKeys[] = {
      PathKey{reach<std::string, &Config::run, &RunConfig::state>()}},
     {"run", "lock_memory", "", "Its memory stays in RAM, where the system allows it",
      FlagKey{reach<bool, &Config::run, &RunConfig::lock_memory>()}},
-
-    {"schedule", "timezone", "", "Whose clocks are meant, daylight saving included; Europe/Berlin",
-     WordKey{schedule_text<&ScheduleConfig::timezone>, is_zone_text, kZones}},
-    {"schedule", "at", "", "Times of the day at which dicot run takes a snapshot; dicot schedule lists what comes",
-     WordsKey{reach<std::vector<std::string>, &Config::schedule, &ScheduleConfig::at>(), is_moment, kMoments,
-              Schedule::kMostMoments}},
-    {"schedule", "every", "", "And one every so often, counted from the time from",
-     WordKey{schedule_text<&ScheduleConfig::every>, is_interval, kIntervals}},
-    {"schedule", "from", "", "The first of every, each day",
-     WordKey{schedule_text<&ScheduleConfig::from>, is_clock, kClocks}},
-    {"schedule", "until", "", "None of every is after this; 24:00 is the end of the day",
-     WordKey{schedule_text<&ScheduleConfig::until>, is_clock, kClocks}},
-    {"schedule", "latitude", "degrees", "Of the place, for sunrise and sunset; north is positive",
-     OpenNumberKey{reach<std::optional<double>, &Config::schedule, &ScheduleConfig::latitude>(), -90, 90}},
-    {"schedule", "longitude", "degrees", "Of the place; east is positive",
-     OpenNumberKey{reach<std::optional<double>, &Config::schedule, &ScheduleConfig::longitude>(), -180, 180}},
-    {"schedule", "late_min", "min", "A snapshot that could not begin so long after its time is missed",
-     WholeKey{reach<int, &Config::schedule, &ScheduleConfig::late_min>(), 0, 720, {}}},
+    {"run", "most_memory_mib", "MiB", "Of memory that dicot run may take; more is refused at its start; 0: no limit",
+     WholeKey{reach<int, &Config::run, &RunConfig::most_memory_mib>(), 0, kMostMemoryMib, {}}},
 };
 
 } // namespace

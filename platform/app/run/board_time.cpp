@@ -6,8 +6,7 @@
 
 namespace dicot::app {
 
-BoardTime::BoardTime(const Config& config)
-    : board_(config.power.rtc.c_str()), rest_(board_, lead_, rest_rules(config))
+BoardTime::BoardTime(const Config& config) : board_(config.power.rtc.c_str()), rest_(board_, lead_, rest_rules(config))
 {
     lead_.open(config.run.state.c_str());
 }

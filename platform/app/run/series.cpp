@@ -23,9 +23,10 @@ constexpr const char* kBusy = "the slot before it was still being worked on";
 void journal_start(const StartReport& report)
 {
     if (report.finished + report.interrupted + report.left_over + report.rows_added > 0)
-        journal(Priority::kNotice,
-                "store mended: %d snapshots finished, %d interrupted ones recorded as missed, %d left over, %d rows added",
-                report.finished, report.interrupted, report.left_over, report.rows_added);
+        journal(
+            Priority::kNotice,
+            "store mended: %d snapshots finished, %d interrupted ones recorded as missed, %d left over, %d rows added",
+            report.finished, report.interrupted, report.left_over, report.rows_added);
 }
 
 /// "2026-06-01T06:30:00Z (sunrise+30m)"
@@ -61,7 +62,7 @@ Status Series::begin(const ShortText<159>& cause)
 {
     cause_ = cause;
     return with_store([&](Store& store) -> Status {
-        if (const auto newest = TRY(store.catalogue().newest_planned(built_us())))
+        if (const auto newest = TRY(store.catalogue().newest_planned(parts_.time.earliest_us())))
             last_due_us_ = newest->due_us;
         return {};
     });
@@ -192,7 +193,8 @@ Status Series::run(std::optional<std::int64_t> slots)
         const ClockReading clock = parts_.time.now(newest_us_);
         const Plan found = catch_up(clock);
         if (!found.next)
-            return failure(Fault::kConfig, "[schedule] names no slot within a year: give schedule.at or schedule.every");
+            return failure(Fault::kConfig,
+                           "[schedule] names no slot within a year: give schedule.at or schedule.every");
         if (!found.late && clock.now_us < parts_.time.begin_us(found.next->due_us)) {
             woken = rest(*found.next);
             missed_why_ = woken.reason == WakeReason::kClockChanged ? kClockSet : kOverslept;

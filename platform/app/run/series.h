@@ -61,10 +61,10 @@ private:
     SnapshotWords how_;
     HealthHistory history_;
     ShortText<159> cause_;
-    std::optional<std::int64_t> last_due_us_;  ///< as PlanFacts has it
-    std::optional<std::int64_t> taken_us_;     ///< as PlanFacts has it
-    std::optional<std::int64_t> newest_us_;    ///< a time that is over
-    const char* missed_why_ = "";              ///< what came between, should a slot have been missed
+    std::optional<std::int64_t> last_due_us_; ///< as PlanFacts has it
+    std::optional<std::int64_t> taken_us_;    ///< as PlanFacts has it
+    std::optional<std::int64_t> newest_us_;   ///< a time that is over
+    const char* missed_why_ = "";             ///< what came between, should a slot have been missed
 };
 
 } // namespace dicot::app

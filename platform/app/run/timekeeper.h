@@ -18,6 +18,8 @@ public:
 
     /// `newest_us`: a time that is known to be over.
     virtual ClockReading now(std::optional<std::int64_t> newest_us) = 0;
+    /// No slot was planned before that on a clock that was right, microseconds since 1970, UTC.
+    virtual std::int64_t earliest_us() const { return built_us(); }
     /// Added to the system's clock it gives this one, microseconds; 0 unless time is told.
     virtual std::int64_t shift_us() const { return 0; }
 

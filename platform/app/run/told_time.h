@@ -12,6 +12,7 @@ public:
     explicit ToldTime(std::int64_t from_us) : now_us_(from_us) {}
 
     ClockReading now(std::optional<std::int64_t> newest_us) override;
+    std::int64_t earliest_us() const override { return 0; }
     std::int64_t shift_us() const override;
     Woken begun() override { return {}; }
     std::int64_t begin_us(std::int64_t due_us) const override { return due_us - kLeadUs; }

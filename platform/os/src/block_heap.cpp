@@ -165,14 +165,27 @@ void* BlockHeap::allocate(std::size_t bytes, std::size_t alignment) noexcept
     return block->start() + kHeaderBytes;
 }
 
-void BlockHeap::release(void* given) noexcept
+/// Null unless allocate() of this heap gave it and it has not come back.
+BlockHeap::Block* BlockHeap::in_use(const void* given) const noexcept
 {
-    auto* const payload = static_cast<std::byte*>(given);
+    const auto* const payload = static_cast<const std::byte*>(given);
     if (begin_ == nullptr || payload < begin_ + kHeaderBytes || payload >= end_ ||
         static_cast<std::size_t>(payload - begin_) % kUnit != 0)
-        return;
-    auto* block = Block::at(payload - kHeaderBytes);
-    if (block->stamp != stamp_of(block))
+        return nullptr;
+    auto* const block = Block::at(begin_ + (payload - kHeaderBytes - begin_));
+    return block->stamp == stamp_of(block) ? block : nullptr;
+}
+
+std::size_t BlockHeap::size_of(const void* given) const noexcept
+{
+    const Block* const block = in_use(given);
+    return block == nullptr ? 0 : std::size_t{block->units} * kUnit - kHeaderBytes;
+}
+
+void BlockHeap::release(void* given) noexcept
+{
+    Block* block = in_use(given);
+    if (block == nullptr)
         return;
     used_bytes_ -= std::size_t{block->units} * kUnit;
     block->stamp = 0;

@@ -24,7 +24,8 @@ Result<ProcessMemory> process_memory() noexcept
     TRY(file.open("/proc/self/status"));
     std::array<char, 8192> text{};
     TRY(file.read(std::as_writable_bytes(std::span{text}).first(text.size() - 1)));
-    const ProcessMemory memory{bytes_behind(text.data(), "\nVmRSS:"), bytes_behind(text.data(), "\nVmHWM:")};
+    const ProcessMemory memory{bytes_behind(text.data(), "\nVmRSS:"), bytes_behind(text.data(), "\nVmHWM:"),
+                               bytes_behind(text.data(), "\nVmSize:")};
     if (memory.resident_bytes == 0 || memory.peak_bytes == 0)
         return failure(Fault::kOsError, "/proc/self/status does not tell this process's memory; is /proc mounted?");
     return memory;

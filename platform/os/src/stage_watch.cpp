@@ -61,16 +61,8 @@ StageWatch::~StageWatch()
     device_.let_go();
 }
 
-Status StageWatch::open(const StageWatchRules& rules) noexcept
+Status StageWatch::open_timer() noexcept
 {
-    if (current.load() != nullptr)
-        return failure(Fault::kSoftware, "a second watch of stages was opened");
-    grace_us_ = rules.grace_us;
-    for_journal_ = std::getenv("JOURNAL_STREAM") != nullptr; // NOLINT(concurrency-mt-unsafe): at the start
-    if (*rules.stage_file != '\0')
-        TRY(file_.open(rules.stage_file));
-    TRY(notice_.open());
-
     struct sigaction action
     {
     };
@@ -79,10 +71,22 @@ Status StageWatch::open(const StageWatchRules& rules) noexcept
     sigevent event{};
     event.sigev_notify = SIGEV_SIGNAL;
     event.sigev_signo = SIGRTMIN + 3;
-    if (::sigaction(SIGRTMIN + 3, &action, &before_) != 0 || ::timer_create(CLOCK_MONOTONIC, &event, &timer_) != 0)
-        return failure(Fault::kOsError, "no timer for the bounds of the stages (%s)", strerrordesc_np(errno));
-    has_timer_ = true;
+    has_timer_ =
+        ::sigaction(SIGRTMIN + 3, &action, &before_) == 0 && ::timer_create(CLOCK_MONOTONIC, &event, &timer_) == 0;
+    return has_timer_ ? Status{}
+                      : failure(Fault::kOsError, "no timer for the bounds of the stages (%s)", strerrordesc_np(errno));
+}
 
+Status StageWatch::open(const StageWatchRules& rules) noexcept
+{
+    if (current.load() != nullptr)
+        return failure(Fault::kSoftware, "a second watch of stages was opened");
+    grace_us_ = rules.grace_us;
+    for_journal_ = std::getenv("JOURNAL_STREAM") != nullptr; // NOLINT(concurrency-mt-unsafe): at the start
+    Status first = notice_.open();
+    for (const Status& part : {open_timer(), *rules.stage_file == '\0' ? Status{} : file_.open(rules.stage_file)})
+        if (first.ok())
+            first = part;
     device_path_ = rules.device;
     device_timeout_s_ = rules.device_timeout_s;
     if (!device_path_.empty())
@@ -91,7 +95,7 @@ Status StageWatch::open(const StageWatchRules& rules) noexcept
     open_ = true;
     current.store(this);
     leave();
-    return {};
+    return first;
 }
 
 std::int64_t StageWatch::most_silence_us() const noexcept

@@ -1,23 +1,13 @@
 #include "dicot/os/heap_gate.h"
 
+#include "libraries_heap.h"
+
 #include <atomic>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
 
 #include <unistd.h>
-
-#if defined(__has_feature)
-#define DICOT_HAS_FEATURE(feature) __has_feature(feature)
-#else
-#define DICOT_HAS_FEATURE(feature) 0
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || DICOT_HAS_FEATURE(address_sanitizer) ||           \
-    DICOT_HAS_FEATURE(thread_sanitizer) || DICOT_HAS_FEATURE(memory_sanitizer)
-#define DICOT_GATE_REPLACES 0
-#else
-#define DICOT_GATE_REPLACES 1
-#endif
 
 namespace dicot::heap_gate {
 namespace {
@@ -31,6 +21,18 @@ enum class State
 
 constinit std::atomic<State> state{State::kOpen};
 constinit std::atomic<std::uint64_t> breach_count{0};
+constinit std::atomic<bool> for_good{false};
+
+void set(State to) noexcept
+{
+    state.store(to, std::memory_order_seq_cst);
+}
+
+void begin_counting(Breach breach) noexcept
+{
+    breach_count.store(0, std::memory_order_relaxed);
+    set(breach == Breach::kStop ? State::kStopping : State::kCounting);
+}
 
 } // namespace
 
@@ -41,13 +43,33 @@ bool replaces_operator_new() noexcept
 
 void seal(Breach breach) noexcept
 {
-    breach_count.store(0, std::memory_order_relaxed);
-    state.store(breach == Breach::kStop ? State::kStopping : State::kCounting, std::memory_order_seq_cst);
+    if (!sealed_for_good())
+        begin_counting(breach);
 }
 
 void unseal() noexcept
 {
-    state.store(State::kOpen, std::memory_order_seq_cst);
+    if (!sealed_for_good())
+        set(State::kOpen);
+}
+
+void seal_for_good(std::span<std::byte> libraries, Breach breach) noexcept
+{
+    for_good.store(true, std::memory_order_relaxed);
+    shut_malloc(libraries);
+    begin_counting(breach);
+}
+
+void reopen() noexcept
+{
+    for_good.store(false, std::memory_order_relaxed);
+    open_malloc();
+    set(State::kOpen);
+}
+
+bool sealed_for_good() noexcept
+{
+    return for_good.load(std::memory_order_relaxed);
 }
 
 bool sealed() noexcept

@@ -26,6 +26,8 @@ public:
     /// Takes back what allocate() of this heap gave. Anything else, also a block that came back already, changes
     /// nothing: each block in use carries a stamp of its heap and place.
     void release(void* block) noexcept;
+    /// How many bytes a block in use may hold, at least as many as were asked for; 0 of anything else.
+    std::size_t size_of(const void* block) const noexcept;
 
     std::size_t used_bytes() const noexcept { return used_bytes_; } ///< now, headers included
     /// How far into the span blocks ever reached. A span of this size is cut differently and may be a little too small.
@@ -36,6 +38,7 @@ private:
     static constexpr std::size_t kBins = 240;
 
     static std::size_t bin_of(std::uint32_t units) noexcept;
+    Block* in_use(const void* block) const noexcept;
     std::uint32_t stamp_of(const Block* block) const noexcept;
     Block* next_of(Block* block) const noexcept;
     Block* find(std::uint32_t units) noexcept;

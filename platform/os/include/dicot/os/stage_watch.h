@@ -35,8 +35,8 @@ public:
     StageWatch& operator=(const StageWatch&) = delete;
     ~StageWatch(); ///< a clean end: stopping() is said, the device is let go, the stage file says "none"
 
-    /// Fault::kSoftware: there is one already. Else the faults of the parts, all with the remedy: those of the device
-    /// are for the caller to judge, as the watch is open without it when device_trouble() is not ok.
+    /// Fault::kSoftware: there is one already. Any other failure is told, and the watch is open with the parts that it
+    /// has: a supervisor that hears nothing would never let the program come up. The device's is device_trouble().
     Status open(const StageWatchRules& rules) noexcept;
     const Status& device_trouble() const noexcept { return device_trouble_; }
     const std::optional<StageEntry>& previous() const noexcept { return file_.previous(); } ///< StageFile::previous()
@@ -68,6 +68,7 @@ public:
 
 private:
     static void cut_off(int) noexcept;
+    Status open_timer() noexcept;
     void feed(std::int64_t now_us) noexcept;
     void arm(std::int64_t after_us) noexcept;
     void begin(const char* stage, std::int64_t bound_us) noexcept;

@@ -6,6 +6,7 @@
 #include "dicot/replay/replay_script.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -43,6 +44,8 @@ public:
     /// when its frame is due. Takes the memory of kSlots frames. Fault::kNoInput, kBadData: as picture_size() says; no
     /// files; files that are not of one format and size. Fault::kConfig: a script that does not suit the files.
     Status open(std::span<const char* const> files, const ReplayOptions& options) noexcept;
+
+    std::size_t memory_bytes() const noexcept { return memory_.bytes().size(); } ///< of its frames
 
     const CameraIdentity& identity() const noexcept override { return identity_; }
     std::span<const CameraMode> modes() const noexcept override { return {&offered_, offered_.width > 0 ? 1U : 0U}; }
