@@ -79,7 +79,9 @@ timeout --foreground --kill-after=5 "$timeout_s" qemu-system-aarch64 -M virt -cp
 machine=$!
 while [ "$end" != 'done' ] && kill -0 $machine 2>/dev/null; do
     sleep 0.05
-    ! tr -d '\r' <"$log.raw" | grep -qx "dicot-vm: $end" || kill -KILL "$(cat "$log.pid")"
+    tr -d '\r' <"$log.raw" | grep -qx "dicot-vm: $end" || continue
+    kill -KILL "$(cat "$log.pid")"
+    break
 done
 wait $machine
 tr -d '\r' <"$log.raw" >"$log"
