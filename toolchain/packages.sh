@@ -15,7 +15,7 @@ dicot_packages() {
         lint) echo "clang-format-14 clang-tidy-14 shellcheck" ;;
         cross) echo "g++-aarch64-linux-gnu g++-arm-linux-gnueabihf qemu-user mmdebstrap" ;;
         vm) echo "g++-aarch64-linux-gnu mmdebstrap qemu-system-arm kmod cpio binutils
-            e2fsprogs" ;;
+            e2fsprogs device-tree-compiler" ;;
         *)
             echo "dicot: there is no purpose '$1' in toolchain/packages.sh" >&2
             return 64
