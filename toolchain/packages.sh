@@ -4,11 +4,11 @@
 
 dicot_packages() {
     case $1 in
-        build) echo "g++ cmake ninja-build pkg-config libpng-dev libjpeg62-turbo-dev libyaml-dev libmd-dev libcli11-dev
+        build) echo "g++ cmake ninja-build pkg-config libpng-dev zlib1g-dev libjpeg62-turbo-dev libyaml-dev libmd-dev libcli11-dev
             nlohmann-json3-dev libeigen3-dev libdraco-dev libusb-1.0-0-dev libtomlplusplus-dev libsqlite3-dev" ;;
         quickstart) echo "libjpeg-turbo-progs" ;; # djpeg scales the pair
-        # draco, pcl-tools: readers of others for our files; OpenCV: a yardstick beside ours
-        test) echo "libgtest-dev libgmock-dev libopencv-calib3d-dev draco pcl-tools python3" ;;
+        # tzdata: every zone of it is read; draco, pcl-tools: readers of others for our files; OpenCV: a yardstick beside ours
+        test) echo "libgtest-dev libgmock-dev libopencv-calib3d-dev draco pcl-tools python3 tzdata" ;;
         clang) echo "clang-14 libclang-rt-14-dev" ;;
         lint) echo "clang-format-14 clang-tidy-14 shellcheck" ;;
         cross) echo "g++-aarch64-linux-gnu g++-arm-linux-gnueabihf qemu-user mmdebstrap" ;;

@@ -7,6 +7,7 @@
 #include "dicot/cloud/render.h"
 #include "dicot/export/export_cloud.h"
 #include "dicot/matching/matcher.h"
+#include "dicot/os/stage_watch.h"
 #include "dicot/picture/write_picture.h"
 
 #include <optional>
@@ -45,6 +46,7 @@ Status CloudWork::see(PairSource& source, const PictureNames& names, FileShelf& 
     StopWatch watch;
     times = {};
     drift_ = {};
+    StageWatch::enter("capture", stage_bound_us);
     const int width = plan_.rig.width;
     const int height = plan_.rig.height;
     Arena stage = bench_.next_stage();
@@ -57,6 +59,7 @@ Status CloudWork::see(PairSource& source, const PictureNames& names, FileShelf& 
         const auto raw_right = take_picture<Rgb8>(before_matching, width, height);
         TRY(source.fill(painted, raw_right, before_matching));
         times.read_s = watch.lap_s();
+        StageWatch::enter("rectify", stage_bound_us);
         remap(plan_.tables->left(), *plan_.kernels, painted, left, plan_.tables->spans());
         remap(plan_.tables->right(), *plan_.kernels, raw_right, right, plan_.tables->spans());
         times.rectify_s = watch.lap_s();
@@ -69,10 +72,13 @@ Status CloudWork::see(PairSource& source, const PictureNames& names, FileShelf& 
                       [&](ByteSink& sink) { return write_jpeg(sink, names.left.c_str(), left, kJpegQuality); }));
     times.pictures_s = watch.lap_s();
 
+    StageWatch::enter("match", stage_bound_us);
     Matcher matcher = TRY(Matcher::make(width, height, plan_.match, *plan_.kernels, plan_.threads, stage));
     const DisparityMap map = [&] {
         if (!shows_progress)
-            return matcher.match(left, right, crew_).map;
+            return matcher
+                .match(left, right, crew_, {nullptr, [](void*, int, int) { StageWatch::progress(); }, nullptr})
+                .map;
         Progress progress("matching");
         return matcher.match(left, right, crew_, {nullptr, Progress::rows_done, &progress}).map;
     }();
@@ -100,6 +106,7 @@ Status CloudWork::see(PairSource& source, const PictureNames& names, FileShelf& 
 Status CloudWork::encode(const CloudMeta& meta)
 {
     StopWatch watch;
+    StageWatch::enter("encode", stage_bound_us);
     Arena stage = bench_.next_stage();
     encoded_ = TRY(encode_cloud(cloud_, meta, stage.take<std::byte>(encode_heap_bytes(cloud_.points.size()))));
     times.encode_s = watch.lap_s();

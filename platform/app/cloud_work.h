@@ -84,6 +84,7 @@ public:
     const ProcessBudget& budget() const noexcept { return bench_.budget(); }
     const CloudPlan& plan() const noexcept { return plan_; }
     StageTimes times;
+    std::int64_t stage_bound_us = 0; ///< of each, for the StageWatch; 0: none
 
 private:
     CloudWork(const CloudPlan& plan, ProcessBench bench);

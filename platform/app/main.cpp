@@ -50,9 +50,12 @@ int main(int argc, char** argv)
     app::add_evaluate(program, chosen);
     app::add_memory(program, chosen);
     app::add_selftest(program, chosen);
+    app::add_run(program, chosen);
+    app::add_schedule(program, chosen);
     app::add_snap(program, chosen);
     app::add_list(program, chosen);
     app::add_health(program, chosen);
+    app::add_diag(program, chosen);
     app::add_show(program, chosen);
     app::add_verify(program, chosen);
     app::add_prune(program, chosen);

@@ -1,26 +1,18 @@
 // dicot snap: from two cameras to one compressed cloud, once.
 #include "cameras/drawn_pair.h"
 #include "commands.h"
-#include "config/device_name.h"
 #include "config_words.h"
-#include "output_folder.h"
 #include "snapshot.h"
 #include "stop_request.h"
-#include "store/shown.h"
+#include "store/board_store.h"
 #include "store/start_words.h"
 #include "store/store_outcome.h"
 #include "store/store_words.h"
 
-#include "dicot/os/clock.h"
-#include "dicot/os/host.h"
-
 #include <nlohmann/json.hpp>
 
-#include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
-#include <thread>
 
 namespace dicot::app {
 namespace {
@@ -33,30 +25,6 @@ struct Words
     bool preview = false;
     bool json = false;
 };
-
-Status make_device_folder(const std::string& root, const std::string& path)
-{
-    std::error_code ignored;
-    if (std::filesystem::is_directory(root, ignored) && TRY(is_device_folder(root)))
-        return failure(Fault::kUsage, "%s: this is the folder of one board: name the one around it",
-                       shown(root).c_str());
-    TRY(make_folder(root));
-    return make_folder(path);
-}
-
-/// Another process may be pruning, verifying, or taking a snapshot: that is no reason for a miss at once.
-Result<WrittenStore> open_patiently(const std::string& path, const StoreRules& rules)
-{
-    constexpr std::int64_t kPatienceUs = 60'000'000;
-    constexpr std::chrono::milliseconds kPause{50};
-    const std::int64_t until_us = monotonic_us() + kPatienceUs;
-    for (;;) {
-        Result<WrittenStore> opened = WrittenStore::open(path, rules);
-        if (opened.status().fault() != Fault::kTryAgain || StopRequest::asked() || monotonic_us() > until_us)
-            return opened;
-        std::this_thread::sleep_for(kPause);
-    }
-}
 
 void print(const nlohmann::json& record, const std::string& folder)
 {
@@ -106,17 +74,12 @@ Status run(const Words& words)
     SnapshotWords how;
     how.raw = words.raw || config.output.keep_raw;
     how.preview = words.preview;
-    how.device = config.output.device.empty() ? device_name_near(host_name()) : config.output.device;
-    how.source = is_drawn                                     ? "drawn pictures"
-                 : config.cameras.left.by == BoundBy::kReplay ? "recorded pictures"
-                                                              : "cameras";
-    const std::string root = words.root.empty() ? config.output.folder : words.root;
-    const std::string path = root + "/" + how.device;
-    TRY(make_device_folder(root, path));
-    const Result<WrittenStore> opened = open_patiently(path, rules_of(config.output));
-    if (!opened.ok())
-        return in_store(path, opened.status());
-    Store& store = *opened.value().store;
+    how.source = source_of(config, is_drawn);
+    const BoardStore board = TRY(BoardStore::make(config.output, words.root));
+    const std::string& path = board.path;
+    how.device = board.device;
+    const WrittenStore opened = TRY(board.open_patiently(rules_of(config.output)));
+    Store& store = *opened.store;
     tell_start(store, path);
     const ClockReading clock = read_clock(TRY(newest_time(store.catalogue())));
     Result<SnapshotTold> taken = take_snapshot(config, how, bench, clock, store);

@@ -8,12 +8,15 @@
 #include "dicot/base/printable.h"
 #include "dicot/base/utc_time.h"
 #include "dicot/os/process_memory.h"
+#include "dicot/os/stage_watch.h"
 #include "dicot/record/record.h"
 
 #include <span>
 
 namespace dicot::app {
 namespace {
+
+constexpr int kStoreSeconds = 120; ///< a card that takes longer is broken
 
 CloudWords cloud_words(const Config& config)
 {
@@ -60,12 +63,14 @@ Status shoot(const Config& config, const SnapshotWords& words, SnapshotBench& be
              Store& store, SnapshotTold& told)
 {
     CloudWork& work = *bench.work;
+    work.stage_bound_us = std::int64_t{config.watchdog.stage_s} * 1'000'000;
+    StageWatch::enter("open the cameras", work.stage_bound_us);
     RigStream rig = TRY(RigStream::open(config, Pace::kAtOnce));
     if (rig.width() != bench.plan.rig.width || rig.height() != bench.plan.rig.height)
         return failure(Fault::kBadData, "the cameras' pictures are %d x %d px, and were %d x %d a moment ago",
                        rig.width(), rig.height(), bench.plan.rig.width, bench.plan.rig.height);
     StoreShelf shelf(store);
-    Shot shot(rig, config, words.raw ? &shelf : nullptr);
+    Shot shot(rig, config, words.raw ? &shelf : nullptr, words.notes.clock_shift_us);
     PictureNames names;
     names.left = "left.jpg";
     if (words.preview)
@@ -88,6 +93,7 @@ Status shoot(const Config& config, const SnapshotWords& words, SnapshotBench& be
     }
     told.record["cameras"] = cameras_record(rig);
     if (shot.figures().burst.used > 0) {
+        told.pair_at_us = shot.figures().ready_us;
         told.record["shot"] = shot_record(shot.figures());
         told.warnings = shot_warnings(rig, shot.figures());
     }
@@ -100,6 +106,7 @@ Status shoot(const Config& config, const SnapshotWords& words, SnapshotBench& be
 /// The last file, and the commit.
 Status store_it(SnapshotTold& told, const ClockReading& clock, Store& store)
 {
+    StageWatch::enter("store", std::int64_t{kStoreSeconds} * 1'000'000);
     const bool done = told.status.ok();
     told.record["outcome"] = done ? "done" : "missed";
     told.record["reason"] = done ? nlohmann::json() : nlohmann::json(told.status.message());
@@ -113,6 +120,30 @@ Status store_it(SnapshotTold& told, const ClockReading& clock, Store& store)
     outcome.clock_trust = name_of(clock.trust);
     outcome.points = done ? told.record["cloud"]["points"].get<std::int64_t>() : 0;
     return store.commit(outcome);
+}
+
+/// The number, and what is known of the slot before anything is done.
+Result<SnapshotTold> begin(const Config& config, const SnapshotWords& words, const ClockReading& clock, Store& store)
+{
+    const std::optional<std::int64_t> due_us = words.notes.due_us;
+    TRY(store.begin({.began_us = clock.now_us, .due_us = due_us}));
+    StageWatch::slot(static_cast<std::uint64_t>(store.sequence()), due_us.value_or(0));
+    SnapshotTold told;
+    told.folder = store.folder();
+    told.record = {{"format", kRecordFormat},
+                   {"software", "dicot " DICOT_VERSION},
+                   {"sequence", store.sequence()},
+                   {"device", words.device},
+                   {"time", utc_text(clock.now_us).view()},
+                   {"due", due_us ? nlohmann::json(utc_text(*due_us).view()) : nlohmann::json()},
+                   {"source", words.source},
+                   {"clock", clock_record(clock)},
+                   {"temperatures_c", temperatures_record()},
+                   {"parameters", parameters_record(config)},
+                   {"store", start_record(store.start_report())}};
+    if (due_us)
+        told.record["plan"] = plan_record(words.notes);
+    return told;
 }
 
 } // namespace
@@ -135,25 +166,14 @@ Result<SnapshotTold> take_snapshot(const Config& config, const SnapshotWords& wo
                                    const Result<std::unique_ptr<SnapshotBench>>& bench, const ClockReading& clock,
                                    Store& store)
 {
-    TRY(store.begin({.began_us = clock.now_us, .due_us = {}}));
-    SnapshotTold told;
-    told.folder = store.folder();
-    told.record = {{"format", kRecordFormat},
-                   {"software", "dicot " DICOT_VERSION},
-                   {"sequence", store.sequence()},
-                   {"device", words.device},
-                   {"time", utc_text(clock.now_us).view()},
-                   {"due", nullptr},
-                   {"source", words.source},
-                   {"clock", clock_record(clock)},
-                   {"temperatures_c", temperatures_record()},
-                   {"parameters", parameters_record(config)},
-                   {"store", start_record(store.start_report())}};
+    SnapshotTold told = TRY(begin(config, words, clock, store));
     told.status = store.make_room();
     if (told.status.ok())
         told.status = bench.status();
     if (told.status.ok())
         told.status = shoot(config, words, *bench.value(), clock, store, told);
+    if (const auto overran = StageWatch::what_overran(); !told.status.ok() && !overran.empty())
+        told.status = failure(Fault::kUnavailable, "%s", overran.c_str());
     told.record["memory"] = memory_record(bench.ok() ? bench.value()->work->budget().total() : 0);
     Status stored;
     if (told.status.ok()) {
@@ -169,6 +189,19 @@ Result<SnapshotTold> take_snapshot(const Config& config, const SnapshotWords& wo
     }
     told.stored = stored.ok();
     return told;
+}
+
+Status record_miss(const Config& config, const SnapshotWords& how, const Status& reason, const ClockReading& clock,
+                   Store& store)
+{
+    SnapshotTold told = TRY(begin(config, how, clock, store));
+    told.status = reason;
+    return store_it(told, clock, store);
+}
+
+const char* source_of(const Config& config, bool is_drawn) noexcept
+{
+    return is_drawn ? "drawn pictures" : config.cameras.left.by == BoundBy::kReplay ? "recorded pictures" : "cameras";
 }
 
 } // namespace dicot::app

@@ -3,13 +3,16 @@
 
 #include "cloud_work.h"
 #include "config/config.h"
+#include "run/slot_notes.h"
 
 #include "dicot/os/clock_trust.h"
 #include "dicot/store/store.h"
 
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,16 +35,21 @@ struct SnapshotWords
     bool preview = false;
     std::string device; ///< is_device_name()
     const char* source = "cameras";
+    SlotNotes notes;
 };
+
+/// "drawn pictures", "recorded pictures", "cameras".
+const char* source_of(const Config& config, bool is_drawn) noexcept;
 
 /// What a slot came to.
 struct SnapshotTold
 {
     nlohmann::json record; ///< as record.json has it
     std::vector<std::string> warnings;
-    std::string folder;  ///< from the store's folder
-    Status status;       ///< ok, or why it was missed
-    bool stored = false; ///< a miss too: its record is in its place
+    std::string folder;                     ///< from the store's folder
+    Status status;                          ///< ok, or why it was missed
+    bool stored = false;                    ///< a miss too: its record is in its place
+    std::optional<std::int64_t> pair_at_us; ///< monotonic_us() when the cameras had given their pair
 };
 
 /// Takes the next number, shoots, and commits what there is: everything, or the record of a miss alone. A fault of
@@ -49,6 +57,11 @@ struct SnapshotTold
 Result<SnapshotTold> take_snapshot(const Config& config, const SnapshotWords& words,
                                    const Result<std::unique_ptr<SnapshotBench>>& bench, const ClockReading& clock,
                                    Store& store);
+
+/// Takes the next number for a slot that nobody could take, and commits the record of a miss, with `reason`.
+/// Errors: those of Store::begin(), add() and commit().
+Status record_miss(const Config& config, const SnapshotWords& how, const Status& reason, const ClockReading& clock,
+                   Store& store);
 
 /// Paths and names may hold bytes that are no UTF-8.
 std::string text_of_record(const nlohmann::json& record);

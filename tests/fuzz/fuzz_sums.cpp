@@ -37,6 +37,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         require(snapshot_name(*name).view() == text);
         require(is_day_name(utc_day(name->began_us).view()));
     }
+    if (const auto part = parse_part_name(text))
+        require(part_name(*part).view() == text);
     if (is_day_name(text))
         require(text.find('/') == std::string_view::npos);
     return 0;

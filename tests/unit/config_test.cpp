@@ -89,6 +89,27 @@ const Promise kPromises[] = {
     {"output", "reserve_mib", {"0", "1048576"}, {"-1", "1048577", "1.5", "\"256\""}},
     {"output", "prune", {R"("never")", R"("pulled")", R"("all")"}, {R"("")", R"("oldest")", "false"}},
     {"output", "keep_raw", {"true", "false"}, {"0", "\"yes\""}},
+    {"schedule",
+     "timezone",
+     {R"("")", R"("UTC")", R"("CET-1CEST,M3.5.0,M10.5.0/3")", R"("<+0545>-5:45")"},
+     {R"("a b")", R"("Europe\\Berlin")", R"("ä")", R"("UTC\n")", "1", "[]"}},
+    {"schedule",
+     "at",
+     {"[]", R"(["06:30"])", R"(["12:00", "00:00", "23:59"])"},
+     {R"("06:30")", R"(["6:30"])", R"(["24:00"])", R"(["noon"])", R"(["sunrise+13h"])", R"(["06:30", ""])", "[630]",
+      "06:30:00"}},
+    {"schedule",
+     "every",
+     {R"("")", R"("1m")", R"("24h")", R"("1h30m")"},
+     {R"("0m")", R"("24h1m")", R"("30")", R"("2 h")", "2", R"("2H")"}},
+    {"schedule",
+     "from",
+     {R"("00:00")", R"("23:59")"},
+     {R"("24:01")", R"("6:00")", R"("sunrise")", R"("")", "06:00:00", "6"}},
+    {"schedule", "until", {R"("24:00")", R"("00:01")"}, {R"("24:01")", R"("12:60")", R"("")", "24"}},
+    {"schedule", "latitude", {"-90", "90", "52.52"}, {"-90.1", "90.1", "nan", "\"52N\""}},
+    {"schedule", "longitude", {"-180", "180"}, {"-180.5", "181", "[13.4]"}},
+    {"schedule", "late_min", {"0", "720"}, {"-1", "721", "1.5", "\"15m\""}},
 };
 
 const ConfigKey* known(const Promise& promise, std::size_t& place)
@@ -178,6 +199,11 @@ TEST(Config, WithoutAFileTheWrittenDefaultsHold)
     EXPECT_FALSE(config.rig.near_mm || config.rig.far_mm);
     EXPECT_EQ(config.matching.window, 35);
     EXPECT_EQ(config.output.folder, ".");
+    EXPECT_EQ(config.schedule.timezone, "");
+    EXPECT_TRUE(config.schedule.at.empty() && config.schedule.every.empty());
+    EXPECT_EQ(config.schedule.from, "00:00");
+    EXPECT_EQ(config.schedule.until, "24:00");
+    EXPECT_EQ(config.schedule.late_min, 15);
 }
 
 TEST(Config, ABareUsbPortIsAPort)
@@ -278,6 +304,26 @@ TEST(Config, PlantsBeginBeforeTheyEnd)
     EXPECT_THAT(complaint("[rig]\nfar_mm = 200\nnear_mm = 200\n"),
                 StartsWith("t.toml:3: [rig] near_mm is 200 and far_mm 200"));
     EXPECT_TRUE(parse("[rig]\nfar_mm = 200\nnear_mm = 199.9\n").ok());
+}
+
+TEST(Config, ASchedulesContradictionsAreToldWithTheLastOfTheirLines)
+{
+    EXPECT_THAT(complaint("[schedule]\nlongitude = 13.4\nat = ['06:30', 'sunset']\nlate_min = 3\n"),
+                StartsWith("t.toml:3: [schedule] at tells times by the sun"));
+    EXPECT_THAT(complaint("[schedule]\nuntil = '06:00'\nevery = '1h'\nfrom = '20:00'\n[output]\n"),
+                StartsWith("t.toml:4: [schedule] from is not before until"));
+    EXPECT_THAT(complaint("[schedule]\nevery = '2h'\nfrom = '06:00'\nuntil = '07:59'\n"),
+                StartsWith("t.toml:4: [schedule] every is longer"));
+    EXPECT_TRUE(parse("[schedule]\nevery = '2h'\nfrom = '06:00'\nuntil = '08:00'\n").ok());
+    EXPECT_TRUE(parse("[schedule]\nat = ['sunset']\nlatitude = 1\nlongitude = 1\n").ok());
+}
+
+TEST(Config, ATimeZoneThatIsNotThereIsToldWithItsLine)
+{
+    for (const char* name : {"Mars/Olympus", "CET-1CEST", "../UTC", "/etc/localtime"})
+        EXPECT_THAT(complaint(std::string{"[schedule]\n\ntimezone = '"} + name + "'\n"),
+                    StartsWith(std::string{"t.toml:3: [schedule] timezone: there is no time zone \""} + name))
+            << name;
 }
 
 TEST(Config, ScriptsOfBothAndOfOneAreOneScript)

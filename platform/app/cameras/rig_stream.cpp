@@ -3,18 +3,30 @@
 #include "../stop_request.h"
 
 #include "dicot/camera/decode_frame.h"
+#include "dicot/os/stage_watch.h"
 
 #include <limits>
 #include <utility>
 
 namespace dicot::app {
 
+namespace {
+
+/// Asked before each frame: a step was made.
+bool is_to_end() noexcept
+{
+    StageWatch::progress();
+    return StopRequest::asked() || StageWatch::overrun();
+}
+
+} // namespace
+
 StereoRules stereo_rules(const Config& config, std::int64_t* virtual_now_us) noexcept
 {
     StereoRules rules;
     rules.settling.most_us = static_cast<std::int64_t>(config.exposure.warm_up_s * 1e6);
     rules.settling.most_frames = std::numeric_limits<std::uint32_t>::max(); // the time bounds it
-    rules.stop_asked = StopRequest::asked;
+    rules.stop_asked = is_to_end;
     rules.lock_exposure = config.exposure.lock;
     rules.power_line = config.exposure.power_line_hz == 0    ? PowerLine::kOff
                        : config.exposure.power_line_hz == 60 ? PowerLine::k60Hz

@@ -36,7 +36,8 @@ std::int64_t utc_us()
 
 } // namespace
 
-Shot::Shot(RigStream& rig, const Config& config, FileShelf* raw) : rig_(rig), raw_(raw)
+Shot::Shot(RigStream& rig, const Config& config, FileShelf* raw, std::int64_t clock_shift_us)
+    : rig_(rig), raw_(raw), clock_shift_us_(clock_shift_us)
 {
     rules_.pairs = config.burst.frames;
     rules_.average = config.burst.average;
@@ -70,7 +71,8 @@ Status Shot::take(ImageView<Rgb8> left, ImageView<Rgb8> right, Arena scratch)
         Burst burst(arena, left.width, left.height, rules_);
         figures_.burst = TRY(burst.take(rig_.cameras(), left, right));
     }
-    figures_.taken_us = utc_us();
+    figures_.taken_us = utc_us() + clock_shift_us_;
+    figures_.ready_us = monotonic_us();
     look_at(left, right, scratch);
     figures_.wait_s = static_cast<double>(monotonic_us() - began_us) * 1e-6;
     figures_.cpu_s = static_cast<double>(process_cpu_us() - cpu_us) * 1e-6;

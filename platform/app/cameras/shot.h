@@ -22,7 +22,8 @@ struct ShotFigures
     LumaFigures left, right; ///< of the pictures that were kept
     aiming::Focus left_focus, right_focus;
     std::optional<aiming::Views> views; ///< none: pictures of a size that is not compared
-    std::int64_t taken_us = 0;          ///< since 1970, UTC, when the pair was there; the system's clock
+    std::int64_t taken_us = 0;          ///< since 1970, UTC, when the pair was there
+    std::int64_t ready_us = 0;          ///< the same, as monotonic_us() has it
     double wait_s = 0;                  ///< from asking to having it
     double cpu_s = 0;                   ///< processor time of that, all threads
 };
@@ -32,7 +33,8 @@ class Shot final : public PairSource
 {
 public:
     /// `raw`: where fill() puts raw_left.png and raw_right.png, as the cameras saw them; null: nowhere.
-    Shot(RigStream& rig, const Config& config, FileShelf* raw);
+    /// `clock_shift_us` is added to the system's clock.
+    Shot(RigStream& rig, const Config& config, FileShelf* raw, std::int64_t clock_shift_us = 0);
 
     /// What take() and fill() need for pictures of this size.
     static std::size_t scratch_bytes(int width, int height);
@@ -54,6 +56,7 @@ private:
     RigStream& rig_;
     BurstRules rules_;
     FileShelf* raw_;
+    std::int64_t clock_shift_us_;
     ShotFigures figures_;
 };
 

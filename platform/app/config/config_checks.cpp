@@ -71,6 +71,24 @@ Status check_schedule(const LoadedConfig& loaded, const char* file)
                                line_of(loaded, "schedule", {"timezone"}), zone.message());
 }
 
+/// A port that is off has no camera that could be found by another word.
+Status check_power(const LoadedConfig& loaded, const char* file)
+{
+    const Config& config = loaded.config;
+    for (const CameraBinding& side : {config.cameras.left, config.cameras.right})
+        if (config.power.cameras == "port" && side.by != BoundBy::kPort && side.by != BoundBy::kReplay)
+            return failure(Fault::kConfig,
+                           "%s:%d: [power] cameras = \"port\" needs cameras that are bound by port, as \"port:1-1.2\"; "
+                           "dicot probe lists them",
+                           file, line_of(loaded, "power", {"cameras"}));
+    constexpr std::size_t kMostDevice = 127, kMostState = 240;
+    if (config.power.rtc.size() > kMostDevice || config.watchdog.device.size() > kMostDevice ||
+        config.run.state.size() > kMostState)
+        return failure(Fault::kConfig,
+                       "%s: power.rtc, watchdog.device (127 bytes at most) or run.state (240) is too long", file);
+    return {};
+}
+
 } // namespace
 
 Status check_together(const LoadedConfig& loaded)
@@ -79,6 +97,7 @@ Status check_together(const LoadedConfig& loaded)
     TRY(check_bindings(loaded, file));
     TRY(check_scripts(loaded, file));
     TRY(check_schedule(loaded, file));
+    TRY(check_power(loaded, file));
     const RigConfig& rig = loaded.config.rig;
     if (rig.near_mm && rig.far_mm && *rig.near_mm >= *rig.far_mm)
         return failure(Fault::kConfig,

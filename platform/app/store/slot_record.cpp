@@ -2,6 +2,7 @@
 
 #include "../config_json.h"
 
+#include "dicot/base/utc_time.h"
 #include "dicot/os/host.h"
 #include "dicot/os/process_memory.h"
 
@@ -18,6 +19,21 @@ json clock_record(const ClockReading& clock)
     return {{"trust", name_of(clock.trust)},
             {"max_error_ms", clock.most_error_us ? json(static_cast<double>(*clock.most_error_us) / 1000) : json()},
             {"why", clock.why}};
+}
+
+json plan_record(const SlotNotes& notes)
+{
+    json record = {{"why", notes.why.view()}};
+    if (!notes.woken)
+        return record;
+    const Woken& woken = *notes.woken;
+    record["begin"] = utc_text(notes.begun_us).view();
+    record["woken"] = {{"by", name_of(woken.reason)},
+                       {"rest", name_of(woken.way)},
+                       {"asleep_s", static_cast<double>(woken.asleep_us) * 1e-6},
+                       {"interrupt", woken.woken_by.view()},
+                       {"trouble", woken.trouble.view()}};
+    return record;
 }
 
 json temperatures_record()

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "../config/config.h"
+#include "../run/slot_notes.h"
 
 #include "dicot/os/clock_trust.h"
 #include "dicot/store/store.h"
@@ -12,6 +13,8 @@
 
 namespace dicot::app {
 
+/// Of a slot that was planned.
+nlohmann::json plan_record(const SlotNotes& notes);
 nlohmann::json clock_record(const ClockReading& clock);
 /// Degrees Celsius by the sensor's name.
 nlohmann::json temperatures_record();

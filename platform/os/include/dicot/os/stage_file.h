@@ -4,6 +4,7 @@
 #include "dicot/base/short_text.h"
 #include "dicot/base/status.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -14,7 +15,7 @@ using StageName = ShortText<31>;
 
 struct StageEntry
 {
-    StageName stage;            ///< empty: none, the program rested or ended in order
+    StageName stage;            ///< empty: none, the program rests or ended in order; never of one that was read
     std::uint64_t slot = 0;     ///< its number, 0: none
     std::int64_t due_us = 0;    ///< of the slot, since 1970, UTC
     std::int64_t bound_us = 0;  ///< 0: none
@@ -36,9 +37,10 @@ public:
     StageFile& operator=(const StageFile&) = delete;
     ~StageFile();
 
-    /// Maps the file, made where it is missing; what it said before is previous(). Fault::kCannotCreate, kIoError.
+    /// Maps the file, made where it is missing; what it said before is previous(). One process at a time has it.
+    /// Fault::kCannotCreate, kIoError; kTryAgain: another process has it.
     Status open(const char* path) noexcept;
-    /// What the process before this one was at; none: a new file, another boot, nothing legible.
+    /// What the process before this one was at; none: no stage, a new file, another boot, nothing legible.
     const std::optional<StageEntry>& previous() const noexcept { return previous_; }
 
     void write(const StageEntry& entry) noexcept;       ///< `lasted_us` and `cut_off` begin at none
@@ -49,8 +51,13 @@ public:
     static Result<std::optional<StageEntry>> read(const char* path) noexcept;
 
 private:
+    struct Record;
     struct Page;
+    static std::optional<StageEntry> newest(const Page& page) noexcept;
+
+    int descriptor_ = -1;
     Page* page_ = nullptr;
+    std::atomic<Record*> current_{nullptr};
     std::optional<StageEntry> previous_;
 };
 

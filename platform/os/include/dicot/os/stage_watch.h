@@ -61,6 +61,11 @@ public:
     /// "stage match is past its bound: 901 s of 900 s"; empty: nothing overran since slot().
     static ShortText<120> what_overran() noexcept;
 
+    /// Around sleep of the board: a hardware watchdog that runs on meanwhile would reset it, so it is let go and held
+    /// again.
+    static void before_sleep() noexcept;
+    static void after_sleep() noexcept;
+
 private:
     static void cut_off(int) noexcept;
     void feed(std::int64_t now_us) noexcept;
@@ -74,8 +79,10 @@ private:
     Status device_trouble_;
     std::int64_t grace_us_ = 0;
     int device_timeout_s_ = 0;
+    ShortText<127> device_path_;
     bool open_ = false;
     bool has_timer_ = false;
+    bool for_journal_ = false;
     timer_t timer_{};
     struct sigaction before_
     {

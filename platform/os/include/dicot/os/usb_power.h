@@ -3,6 +3,7 @@
 
 #include "dicot/base/short_text.h"
 #include "dicot/base/status.h"
+#include "dicot/os/small_file.h"
 
 namespace dicot {
 
@@ -33,6 +34,7 @@ public:
     Status on() noexcept;
 
 private:
+    JoinedPath disable_path(bool of_twin) const noexcept;
     Status set_disable(const char* value) noexcept;
 
     ShortText<31> port_;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "dicot/base/function_ref.h"
-#include "dicot/base/status.h"
 
 #include <cstdint>
 
@@ -17,8 +16,8 @@ enum class WaitEnd
 
 /// Rests until the system's clock shows `until_us` (since 1970, UTC). `step` is called at the start, then each
 /// `step_us`, and after each signal that came. A clock that is set ends it at once; steering (NTP) and sleep of the
-/// board do not. No heap, no processor time in between. Fault::kOsError: no timer.
-Result<WaitEnd> wait_until(std::int64_t until_us, std::int64_t step_us, FunctionRef<bool()> step) noexcept;
+/// board do not. No heap, no processor time in between.
+WaitEnd wait_until(std::int64_t until_us, std::int64_t step_us, FunctionRef<bool()> step) noexcept;
 
 std::int64_t utc_now_us() noexcept;  ///< what the system's clock shows
 std::int64_t boottime_us() noexcept; ///< since the board was started, its sleep included; CLOCK_BOOTTIME

@@ -19,7 +19,8 @@ enum class CamerasBetween
     kPort, ///< their ports are switched off; where that cannot be, as kAuto
 };
 
-/// The power of both cameras. Replayed pictures have no port: nothing is done. No heap.
+/// The power of both cameras, by their ports; kPort wants them bound by port, as one that is off cannot be looked for.
+/// Replayed pictures have no port: nothing is done. No heap.
 class CamerasPower
 {
 public:
@@ -38,11 +39,13 @@ public:
 
 private:
     Status once(const Status& why) noexcept;
+    Status switch_off() noexcept;
+    Status switch_on() noexcept;
 
     CamerasBetween way_;
     ShortText<127> sys_;
     std::array<std::optional<UsbPower>, 2> ports_;
-    bool is_off_ = false;
+    bool are_on_ = false;
     ShortText<255> told_;
 };
 

@@ -13,9 +13,8 @@ public:
 
     std::int64_t now_us() noexcept override;
     std::int64_t boottime_us() noexcept override;
-    std::int64_t asleep_us() noexcept override;
     BootId boot() noexcept override;
-    Result<WaitEnd> wait_until(std::int64_t until_us, std::int64_t step_us, FunctionRef<bool()> step) noexcept override;
+    WaitEnd wait_until(std::int64_t until_us, std::int64_t step_us, FunctionRef<bool()> step) noexcept override;
     Status wake_after(std::int64_t after_s) noexcept override;
     Status no_alarm() noexcept override;
     Result<Slept> suspend() noexcept override;

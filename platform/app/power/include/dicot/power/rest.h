@@ -64,10 +64,8 @@ class Board
 public:
     virtual std::int64_t now_us() noexcept = 0;      ///< UTC, what the system's clock shows
     virtual std::int64_t boottime_us() noexcept = 0; ///< since the start, sleep included
-    virtual std::int64_t asleep_us() noexcept = 0;   ///< since the start
     virtual BootId boot() noexcept = 0;
-    virtual Result<WaitEnd> wait_until(std::int64_t until_us, std::int64_t step_us,
-                                       FunctionRef<bool()> step) noexcept = 0;
+    virtual WaitEnd wait_until(std::int64_t until_us, std::int64_t step_us, FunctionRef<bool()> step) noexcept = 0;
     virtual Status wake_after(std::int64_t after_s) noexcept = 0; ///< the alarm
     virtual Status no_alarm() noexcept = 0;
     virtual Result<Slept> suspend() noexcept = 0;
@@ -83,29 +81,37 @@ class Rest
 public:
     Rest(Board& board, LeadTime& lead, const RestRules& rules) noexcept;
 
-    /// How this start came about: the mark that the last rest left, compared with the boot. Call it once, first.
-    /// `way` is kOff if the board was off by its own wish; the mark is gone afterwards.
+    /// How this start came about: the mark that the last one left, compared with this boot. Call it once, first.
+    /// `way` is kOff if the board was off by its own wish; `trouble`: the mark could not be written.
     Woken begun() noexcept;
 
-    /// Rests until it is time to begin the slot (LeadTime before `due_us`), or until something else comes up. `step` is
-    /// called each step_us and after each signal: whether to go on. Powered off, it does not return (but for kAsked:
-    /// the system stops its services), unless nobody answers the request.
+    /// Rests until it is time to begin the slot, begin_us(), or until something else comes up. `step` is called each
+    /// `step_us` and after each signal: whether to go on. Where the board is powered off, it returns with kAsked alone,
+    /// as the system stops its services; or as idle, if nobody answers the request.
     Woken until(const RestWish& wish, FunctionRef<bool()> step) noexcept;
 
-    /// Which way a pause that begins now would go, and when it would end.
+    /// The way that a pause would go that begins now.
     Between way_to(std::int64_t due_us) noexcept;
-    std::int64_t
-    begin_us(std::int64_t due_us) const noexcept; ///< the time at which the slot begins: due less the cameras' lead
+    /// When the slot begins: the cameras' lead before it is due.
+    std::int64_t begin_us(std::int64_t due_us) const noexcept;
 
 private:
-    bool idle(std::int64_t until_us, FunctionRef<bool()> step, Woken& woken) noexcept;
-    bool suspend(std::int64_t until_us, FunctionRef<bool()> step, Woken& woken) noexcept;
-    bool power_off(const RestWish& wish, FunctionRef<bool()> step, Woken& woken) noexcept;
+    enum class Next
+    {
+        kIdle, ///< the rest of the pause is idled
+        kOver, ///< the pause is over: `reason` says why
+    };
+    void idle(std::int64_t until_us, FunctionRef<bool()> step, Woken& woken) noexcept;
+    Next suspend(std::int64_t begin_us, FunctionRef<bool()> step, Woken& woken) noexcept;
+    Next power_off(const RestWish& wish, FunctionRef<bool()> step, Woken& woken) noexcept;
+    Next await_power_off(std::int64_t most_us, FunctionRef<bool()> step, Woken& woken) noexcept;
+    Status write_mark(std::uint64_t slot, std::int64_t due_us, std::int64_t alarm_us) noexcept;
     void tell(const Status& why, Woken& woken) noexcept;
 
     Board& board_;
     LeadTime& lead_;
     RestRules rules_;
+    ShortText<255> mark_;
     ShortText<255> told_; ///< the last trouble, so that it is told once
 };
 

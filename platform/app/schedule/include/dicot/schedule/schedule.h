@@ -88,15 +88,16 @@ public:
 
 private:
     static constexpr std::int64_t kNever = INT64_MAX;
-    static constexpr int kSources = Schedule::kMostMoments + 1; ///< the last one is `every`
 
-    void find_moment(int source, std::int64_t after_us) noexcept;
+    std::int64_t moment_after(const Moment& moment, std::int64_t after_us) const noexcept;
     void find_every(std::int64_t after_us) noexcept;
 
     const Schedule& schedule_;
     const TimeZone& zone_;
-    std::array<std::int64_t, kSources> due_us_{}; ///< of each source, after what next() gave; kNever
-    std::int64_t every_until_us_ = 0;             ///< as long as the next due is this or earlier, it is one step away
+    /// What next() has not given yet, or kNever.
+    std::array<std::int64_t, Schedule::kMostMoments> moment_due_us_{};
+    std::int64_t every_due_us_ = kNever;
+    std::int64_t every_until_us_ = 0; ///< of that day
 };
 
 /// The earliest slot that is due after `after_us`. Pure.

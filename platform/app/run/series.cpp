@@ -1,0 +1,220 @@
+#include "series.h"
+
+#include "journal.h"
+
+#include "../stop_request.h"
+
+#include "dicot/base/utc_time.h"
+#include "dicot/os/clock.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cinttypes>
+
+namespace dicot::app {
+namespace {
+
+constexpr const char* kNotRunning = "dicot was not running: the board was off, or the service stopped";
+constexpr const char* kClockSet = "the board's clock was set past it";
+constexpr const char* kOverslept = "the board was not awake in time";
+constexpr const char* kBusy = "the slot before it was still being worked on";
+
+void journal_start(const StartReport& report)
+{
+    if (report.finished + report.interrupted + report.left_over + report.rows_added > 0)
+        journal(
+            Priority::kNotice,
+            "store mended: %d snapshots finished, %d interrupted ones recorded as missed, %d left over, %d rows added",
+            report.finished, report.interrupted, report.left_over, report.rows_added);
+}
+
+/// "2026-06-01T06:30:00Z (sunrise+30m)"
+ShortText<63> words_of(const Slot& slot)
+{
+    char text[64];
+    std::snprintf(text, sizeof text, "%s (%s)", utc_text(slot.due_us).c_str(), slot.why.c_str());
+    return text;
+}
+
+bool goes_on()
+{
+    StageWatch::progress();
+    return !StopRequest::asked();
+}
+
+} // namespace
+
+Status Series::with_store(FunctionRef<Status(Store&)> work)
+{
+    return parts_.in_office([&]() -> Status {
+        StoreRules rules = rules_of(parts_.config.output);
+        rules.cause = cause_;
+        const WrittenStore opened = TRY(parts_.board.open_patiently(rules));
+        cause_ = {};
+        journal_start(opened.store->start_report());
+        newest_us_ = TRY(newest_time(opened.store->catalogue()));
+        return work(*opened.store);
+    });
+}
+
+Status Series::begin(const ShortText<159>& cause)
+{
+    cause_ = cause;
+    return with_store([&](Store& store) -> Status {
+        if (const auto newest = TRY(store.catalogue().newest_planned(parts_.time.earliest_us())))
+            last_due_us_ = newest->due_us;
+        return {};
+    });
+}
+
+Plan Series::plan(const ClockReading& clock, FunctionRef<bool(const Slot&)> missed) const
+{
+    PlanFacts facts;
+    facts.last_due_us = last_due_us_;
+    facts.now_us = clock.now_us;
+    facts.clock_set = clock.trust != ClockTrust::kNotSet;
+    facts.late_us = parts_.schedule.late_us;
+    facts.taken_us = taken_us_;
+    return plan_next(parts_.schedule, parts_.zone, facts, missed);
+}
+
+/// The next slot, after a row for each that was missed.
+Plan Series::catch_up(const ClockReading& clock)
+{
+    Plan found = plan(clock, [](const Slot&) { return true; });
+    if (found.missed == 0)
+        return found;
+    const Status filed = file_missed(clock, found);
+    if (!filed.ok())
+        journal(Priority::kError, "%" PRId64 " missed slots have no row yet: %s", found.missed, filed.message());
+    return found;
+}
+
+Status Series::file_missed(const ClockReading& clock, Plan& found)
+{
+    journal(Priority::kWarning, "%" PRId64 " slots were missed: %s", found.missed + found.missed_older, missed_why_);
+    return with_store([&](Store& store) -> Status {
+        Status status;
+        std::int64_t older = found.missed_older;
+        (void)plan(clock, [&](const Slot& slot) {
+            SnapshotWords how = how_;
+            how.notes = {};
+            how.notes.due_us = slot.due_us;
+            how.notes.why = slot.why.view();
+            status = older > 0 ? record_miss(parts_.config, how,
+                                             failure(Fault::kUnavailable, "%s; so were %" PRId64 " slots before it",
+                                                     missed_why_, older),
+                                             clock, store)
+                               : record_miss(parts_.config, how, failure(Fault::kUnavailable, "%s", missed_why_), clock,
+                                             store);
+            older = 0;
+            if (status.ok())
+                last_due_us_ = slot.due_us;
+            return status.ok() && goes_on();
+        });
+        return status;
+    });
+}
+
+Woken Series::rest(const Slot& slot)
+{
+    char text[120];
+    std::snprintf(text, sizeof text, "next slot %s", words_of(slot).c_str());
+    parts_.watch.status(text);
+    StageWatch::leave();
+    const Woken woken = parts_.time.rest({.due_us = slot.due_us, .slot = 0}, [] { return goes_on(); });
+    if (!woken.trouble.empty())
+        journal(Priority::kWarning, "%s", woken.trouble.c_str());
+    if (woken.reason == WakeReason::kClockChanged)
+        journal(Priority::kNotice, "the clock was set");
+    return woken;
+}
+
+void Series::tell(const SnapshotTold& told, const Slot* slot)
+{
+    const ShortText<63> planned = slot != nullptr ? words_of(*slot) : ShortText<63>{"not planned"};
+    for (const std::string& warning : told.warnings)
+        journal(Priority::kWarning, "%s: %s", told.folder.c_str(), warning.c_str());
+    if (told.status.ok())
+        journal(Priority::kInfo, "%s done: %s, %" PRId64 " points", told.folder.c_str(), planned.c_str(),
+                told.record["cloud"]["points"].get<std::int64_t>());
+    else
+        journal(Priority::kError, "%s missed: %s: %s", told.folder.c_str(), planned.c_str(), told.status.message());
+    if (!told.stored)
+        journal(Priority::kError, "%s: not even the miss could be recorded: the next start will", told.folder.c_str());
+}
+
+Status Series::take(const Slot* slot, const Woken& woken)
+{
+    const std::int64_t began_us = monotonic_us();
+    std::optional<std::int64_t> pair_at_us;
+    bool has_row = false;
+    if (const Status on = parts_.cameras.on(); !on.ok())
+        journal(Priority::kWarning, "%s", on.message());
+    const ClockReading clock = parts_.time.now(newest_us_);
+    const Status status = with_store([&](Store& store) -> Status {
+        SnapshotWords how = how_;
+        how.notes = {};
+        how.notes.clock_shift_us = parts_.time.shift_us();
+        if (slot != nullptr) {
+            how.notes.due_us = slot->due_us;
+            how.notes.why = slot->why.view();
+            how.notes.woken = woken;
+            how.notes.begun_us = parts_.time.begin_us(slot->due_us);
+        }
+        SnapshotTold told = TRY(take_snapshot(parts_.config, how, parts_.bench, clock, store));
+        has_row = true;
+        pair_at_us = told.pair_at_us;
+        tell(told, slot);
+        return told.status;
+    });
+    if (!has_row)
+        journal(Priority::kError, "%s", status.message());
+    if (const Status off = parts_.cameras.off(); !off.ok())
+        journal(Priority::kNotice, "%s", off.message());
+    if (pair_at_us)
+        parts_.time.pair_was_ready_after(*pair_at_us - began_us);
+    if (slot != nullptr) {
+        taken_us_ = slot->due_us;
+        if (has_row && clock.trust != ClockTrust::kNotSet)
+            last_due_us_ = slot->due_us;
+    }
+    newest_us_ = clock.now_us;
+    return status;
+}
+
+Status Series::run(std::optional<std::int64_t> slots)
+{
+    Woken woken = parts_.time.begun();
+    missed_why_ = kNotRunning;
+    while (!StopRequest::asked()) {
+        StageWatch::progress();
+        const ClockReading clock = parts_.time.now(newest_us_);
+        const Plan found = catch_up(clock);
+        if (!found.next)
+            return failure(Fault::kConfig,
+                           "[schedule] names no slot within a year: give schedule.at or schedule.every");
+        if (!found.late && clock.now_us < parts_.time.begin_us(found.next->due_us)) {
+            woken = rest(*found.next);
+            missed_why_ = woken.reason == WakeReason::kClockChanged ? kClockSet : kOverslept;
+            continue;
+        }
+        (void)take(&*found.next, woken);
+        woken = {};
+        missed_why_ = kBusy;
+        if (slots && --*slots <= 0)
+            return {};
+    }
+    return {};
+}
+
+Status Series::once()
+{
+    const Woken woken = parts_.time.begun();
+    missed_why_ = kNotRunning;
+    const Plan found = catch_up(parts_.time.now(newest_us_));
+    return take(found.late && found.next ? &*found.next : nullptr, woken);
+}
+
+} // namespace dicot::app
