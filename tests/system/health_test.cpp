@@ -105,7 +105,6 @@ TEST_F(HealthCommand, ADamagedAndAHostileRecordAreToldAndHarmNothing)
         record["health"] = {
             {"flags", {"\x1b[31m"}}, {"epipolar", {{"median_px", "\x1b"}}}, {"focus", json::array({1})}};
         record["cloud"]["width"] = -1;
-        record["clock"]["trust"] = "\x1b[5m";
     });
     rewrite(snapshots(root)[1], [](json& record) { record["reason"] = "\x1b[2J\xE2\x80\xAE gone"; });
     fs::remove(root + "/bench/catalogue.sqlite");
