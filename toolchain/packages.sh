@@ -4,7 +4,7 @@
 
 dicot_packages() {
     case $1 in
-        build) echo "g++ cmake ninja-build pkg-config libpng-dev libjpeg62-turbo-dev libyaml-dev libmd-dev libcli11-dev
+        build) echo "g++ cmake ninja-build pkg-config libpng-dev zlib1g-dev libjpeg62-turbo-dev libyaml-dev libmd-dev libcli11-dev
             nlohmann-json3-dev libeigen3-dev libdraco-dev libusb-1.0-0-dev libtomlplusplus-dev libsqlite3-dev" ;;
         quickstart) echo "libjpeg-turbo-progs" ;; # djpeg scales the pair
         # tzdata: every zone of it is read; draco, pcl-tools: readers of others for our files; OpenCV: a yardstick beside ours;

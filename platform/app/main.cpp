@@ -55,6 +55,7 @@ int main(int argc, char** argv)
     app::add_snap(program, chosen);
     app::add_list(program, chosen);
     app::add_health(program, chosen);
+    app::add_diag(program, chosen);
     app::add_show(program, chosen);
     app::add_verify(program, chosen);
     app::add_prune(program, chosen);

@@ -99,6 +99,17 @@ Result<std::unique_ptr<RunMemory>> carve_memory(const Config& config, const Bare
     return memory;
 }
 
+/// Ports that are switched off are those that the configuration names.
+void use_ports(CamerasPower& cameras, const Config& config)
+{
+    const CameraBinding& left = config.cameras.left;
+    const CameraBinding& right = config.cameras.right;
+    if (left.by != BoundBy::kPort || right.by != BoundBy::kPort)
+        return;
+    if (const Status used = cameras.use(left.what.c_str(), right.what.c_str()); !used.ok())
+        journal(Priority::kWarning, "%s", used.message());
+}
+
 Status go(const Words& words, const Config& config, const Schedule& schedule, const TimeZone& zone)
 {
     RunMemory::keep_address_space_known();
@@ -126,6 +137,7 @@ Status go(const Words& words, const Config& config, const Schedule& schedule, co
     how.source = source_of(config, false);
     const std::unique_ptr<RunMemory> memory = TRY(carve_memory(config, bare, bench));
     CamerasPower cameras(told ? CamerasBetween::kOn : cameras_between(config));
+    use_ports(cameras, config);
     const auto in_office = [&](FunctionRef<Status()> work) { return memory->safely(work); };
     Series series({config, schedule, zone, board, bench, *time, cameras, watch, in_office}, how);
     TRY(series.begin(cause_of(watch)));

@@ -78,6 +78,7 @@ door 'yaml\.h' storage/rig
 door 'sqlite3\.h' storage/catalogue
 door 'sha2\.h' platform/os
 door 'png\.h' platform/picture
+door 'zlib\.h' platform/app/diag/archive
 door 'j(peglib|error)\.h' platform/picture
 door 'CLI/' platform/app
 door 'nlohmann/' '(platform/app|storage/record)'

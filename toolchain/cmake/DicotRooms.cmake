@@ -26,6 +26,7 @@ set(DICOT_DOOR_CLI11::CLI11 dicot_app)
 set(DICOT_DOOR_nlohmann_json::nlohmann_json dicot_app dicot_record)
 set(DICOT_DOOR_PkgConfig::sqlite dicot_catalogue)
 set(DICOT_DOOR_dicot_toml dicot_config)
+set(DICOT_DOOR_ZLIB::ZLIB dicot_archive)
 set(DICOT_DOOR_Threads::Threads dicot_os)
 
 function(dicot_room target)

@@ -1,6 +1,7 @@
 # Every third party of the house, found once; whose door each one has is written in DicotRooms.cmake.
 find_package(Threads REQUIRED)
 find_package(PNG REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(libjpeg REQUIRED IMPORTED_TARGET libjpeg)
 pkg_check_modules(yaml REQUIRED IMPORTED_TARGET yaml-0.1)

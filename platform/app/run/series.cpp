@@ -200,13 +200,19 @@ Status Series::run(std::optional<std::int64_t> slots)
         StageWatch::progress();
         const ClockReading clock = parts_.time.now(newest_us_);
         const Plan found = catch_up(clock);
+        missed_why_ = kOverslept;
         if (!found.next)
             return failure(Fault::kConfig,
                            "[schedule] names no slot within a year: give schedule.at or schedule.every");
         if (!found.late && clock.now_us < parts_.time.begin_us(found.next->due_us)) {
-            woken = rest(*found.next);
-            missed_why_ = woken.reason == WakeReason::kClockChanged ? kClockSet : kOverslept;
-            continue;
+            const Woken rested = rest(*found.next);
+            if (rested.reason != WakeReason::kTime || rested.way != Between::kIdle)
+                woken = rested; // of a board that was idle for the last minutes it is told what woke it before
+            if (rested.reason == WakeReason::kClockChanged)
+                missed_why_ = kClockSet;
+            if (StopRequest::asked() || parts_.time.now(newest_us_).now_us < parts_.time.begin_us(found.next->due_us) ||
+                rested.reason == WakeReason::kClockChanged)
+                continue; // the plan may be another one by now
         }
         (void)take(&*found.next, woken);
         woken = {};
