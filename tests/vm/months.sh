@@ -30,11 +30,13 @@ tell() { # story, time, words for run.sh
         --file tests/vm/guest/months.sh=/vm/months.sh --file "$package=/vm/dicot.deb" --file tests/vm/months/rig.yaml=/vm/rig.yaml \
         --file tests/vm/months/dicot.toml=/vm/dicot.toml --file tests/vm/months/sockets.pl=/vm/sockets.pl tests/vm/guest/system.sh
     sed -n 's/^#expect *//p' "tests/vm/guest/$story.sh" | tr -s ' ' '\n' >"$work/$story.cpio.expect"
-    sh tests/vm/run.sh "$work/$story.cpio" --timeout 240 --own-clock "$time" --disk "$work/disk.img" --out "$work/$story" "$@" ||
+    sh tests/vm/run.sh "$work/$story.cpio" --timeout 400 --own-clock "$time" --disk "$work/disk.img" --out "$work/$story" "$@" ||
         failed=1
 }
 tell months_first "${day}T10:00:00" --cut 'the power may go'
 tell months_second "${day}T11:42:00"
 alarm=$(sed -n 's/^dicot-vm: alarm //p' "$work/months_second.cpio.log")
-tell months_third "$(date -u -d "@${alarm:-0}" +%FT%T)"
+# The world's part: the board has power again when its alarm rings.
+[ -z "$alarm" ] || tell months_third "$(date -u -d "@$alarm" +%FT%T)"
+[ -n "$alarm" ] || echo "FAILED  vm months_third: no alarm was set to start it at"
 exit $failed
