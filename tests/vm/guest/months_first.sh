@@ -28,6 +28,8 @@ judge package.stands_still eval '! systemctl is-active dicot && [ "$(systemctl i
 
 # --- the service
 cp /run/vm/rig.yaml /run/vm/dicot.toml /etc/dicot/
+mkdir -p /etc/systemd/system/dicot.service.d
+printf '[Service]\nWatchdogSec=45\n' >/etc/systemd/system/dicot.service.d/soon.conf
 starts() {
     dicot schedule --next 3
     systemctl enable --now dicot
@@ -80,10 +82,10 @@ exposure() {
 judge service.exposure exposure
 figure "exposure by systemd-analyze security: $(cat judge.log)"
 
-# --- three slots
+# --- three slots; what is seen here of one may be seen only when the board wakes for the next
 three_slots() {
-    await 700 is_done 10:10 && first_rss=$(awk '/^VmRSS/ { print $2 }' "/proc/$(process)/status") &&
-        await 700 is_done 10:20 && await 700 is_done 10:30
+    await 1500 is_done 10:10 && first_rss=$(awk '/^VmRSS/ { print $2 }' "/proc/$(process)/status") &&
+        await 1500 is_done 10:20 && await 1500 is_done 10:30
 }
 judge sleep.three_slots three_slots
 alarm_woke() {
@@ -121,13 +123,9 @@ killed() {
 }
 judge kill.row_with_reason killed
 judge kill.restarted eval 'is_up && [ "$(restarts)" = 1 ]'
-judge kill.next_slot await 700 is_done 10:50
+judge kill.next_slot await 1500 is_done 10:50
 
 # --- the program stands still amid 11:00
-mkdir -p /etc/systemd/system/dicot.service.d
-printf '[Service]\nWatchdogSec=45\n' >/etc/systemd/system/dicot.service.d/soon.conf
-systemctl daemon-reload
-systemctl restart dicot
 bites() {
     amid_a_slot && stopped=$(process) && kill -STOP "$stopped" && await 200 gone "$stopped"
     journalctl --no-pager -o cat -u dicot | grep -i 'watchdog timeout'
@@ -135,7 +133,7 @@ bites() {
 gone() { [ ! -d "/proc/$1" ]; }
 judge watchdog.bites bites
 judge watchdog.row_with_reason await 300 is_missed 11:00 'interrupted|stopped|stage'
-judge watchdog.next_slot await 700 is_done 11:10
+judge watchdog.next_slot await 1500 is_done 11:10
 
 # --- the power goes amid 11:20
 judge cut.amid_a_slot amid_a_slot

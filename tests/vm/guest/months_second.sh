@@ -10,7 +10,9 @@ judge cut.late_slot await 300 is_done 11:40
 judge cut.passed_slot_has_row is_missed 11:30 'not running'
 judge cut.verified dicot verify --store "${clouds:?}"
 
-# --- the clock starts in 1970, and is set again two slots later from the board's own, which went on
+# --- the clock starts in 1970, and is set again two slots later from the board's own, which went on; it stays awake to be seen
+sed -i 's/^between = .*/between = "idle"/' /etc/dicot/dicot.toml
+systemctl restart dicot
 date -s '1970-01-01 00:05:00'
 goes_on_in_1970() { await 700 is_done 1970-01-01T00:10 && await 700 is_done 1970-01-01T00:20; }
 judge clock.goes_on_in_1970 goes_on_in_1970
