@@ -7,13 +7,15 @@ dicot_packages() {
         build) echo "g++ cmake ninja-build pkg-config libpng-dev libjpeg62-turbo-dev libyaml-dev libmd-dev libcli11-dev
             nlohmann-json3-dev libeigen3-dev libdraco-dev libusb-1.0-0-dev libtomlplusplus-dev libsqlite3-dev" ;;
         quickstart) echo "libjpeg-turbo-progs" ;; # djpeg scales the pair
-        # tzdata: every zone of it is read; draco, pcl-tools: readers of others for our files; OpenCV: a yardstick beside ours
-        test) echo "libgtest-dev libgmock-dev libopencv-calib3d-dev draco pcl-tools python3 tzdata" ;;
+        # tzdata: every zone of it is read; draco, pcl-tools: readers of others for our files; OpenCV: a yardstick beside ours;
+        # the second line's make and read packages
+        test) echo "libgtest-dev libgmock-dev libopencv-calib3d-dev draco pcl-tools python3 tzdata
+            dpkg-dev binutils man-db systemd" ;;
         clang) echo "clang-14 libclang-rt-14-dev" ;;
         lint) echo "clang-format-14 clang-tidy-14 shellcheck" ;;
         cross) echo "g++-aarch64-linux-gnu g++-arm-linux-gnueabihf qemu-user mmdebstrap" ;;
         vm) echo "g++-aarch64-linux-gnu mmdebstrap qemu-system-arm kmod cpio binutils
-            e2fsprogs" ;;
+            e2fsprogs device-tree-compiler" ;;
         *)
             echo "dicot: there is no purpose '$1' in toolchain/packages.sh" >&2
             return 64

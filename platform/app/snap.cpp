@@ -2,6 +2,7 @@
 #include "cameras/drawn_pair.h"
 #include "commands.h"
 #include "config_words.h"
+#include "health/health_record.h"
 #include "snapshot.h"
 #include "stop_request.h"
 #include "store/board_store.h"
@@ -45,6 +46,8 @@ void report(const Words& words, SnapshotTold& told, const std::string& path)
     const std::string folder = path + "/" + told.folder;
     for (const std::string& warning : told.warnings)
         std::fprintf(stderr, "dicot: %s: %s\n", folder.c_str(), warning.c_str());
+    for (const HealthFlag& flag : told.flags)
+        std::fprintf(stderr, "dicot: %s: %s; %s\n", name_of(flag.severity), flag.cause.c_str(), flag.action.c_str());
     if (words.json) {
         told.record["folder"] = folder;
         std::printf("%s\n", text_of_record(told.record).c_str());
@@ -82,7 +85,9 @@ Status run(const Words& words)
     Store& store = *opened.store;
     tell_start(store, path);
     const ClockReading clock = read_clock(TRY(newest_time(store.catalogue())));
-    Result<SnapshotTold> taken = take_snapshot(config, how, bench, clock, store);
+    HealthHistory history = read_history(*opened.medium, store.catalogue());
+    how.card = card_health(*opened.medium, store.catalogue(), rules_of(config.output).reserve_bytes);
+    Result<SnapshotTold> taken = take_snapshot(config, how, bench, clock, history, store);
     if (!taken.ok())
         return in_store(path, taken.status());
     report(words, taken.value(), path);

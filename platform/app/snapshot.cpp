@@ -2,6 +2,7 @@
 
 #include "cameras/shot_record.h"
 #include "cloud_report.h"
+#include "health/health_record.h"
 #include "sealed_heap.h"
 #include "store/slot_record.h"
 
@@ -60,7 +61,7 @@ private:
 };
 
 Status shoot(const Config& config, const SnapshotWords& words, SnapshotBench& bench, const ClockReading& clock,
-             Store& store, SnapshotTold& told)
+             Store& store, SnapshotTold& told, std::optional<ShotFigures>& seen)
 {
     CloudWork& work = *bench.work;
     work.stage_bound_us = std::int64_t{config.watchdog.stage_s} * 1'000'000;
@@ -93,7 +94,8 @@ Status shoot(const Config& config, const SnapshotWords& words, SnapshotBench& be
     }
     told.record["cameras"] = cameras_record(rig);
     if (shot.figures().burst.used > 0) {
-        told.pair_at_us = shot.figures().ready_us;
+        seen = shot.figures();
+        told.pair_at_us = seen->ready_us;
         told.record["shot"] = shot_record(shot.figures());
         told.warnings = shot_warnings(rig, shot.figures());
     }
@@ -101,6 +103,20 @@ Status shoot(const Config& config, const SnapshotWords& words, SnapshotBench& be
     told.record["cloud"] = cloud_report(work, config.matching.method, TRY(process_memory()).peak_bytes);
     told.record["calibration_id"] = bench.plan.meta.calibration_id.c_str();
     return {};
+}
+
+/// What is wrong with the rig, by what was measured and by the slots before.
+void judge(const SnapshotWords& words, const SnapshotBench* bench, const ShotFigures* shot, HealthHistory& history,
+           SnapshotTold& told)
+{
+    told.record["outcome"] = told.status.ok() ? "done" : "missed";
+    HealthFigures figures = figures_from_record(told.record);
+    if (shot != nullptr)
+        add_focus(figures, shot->left_focus, shot->right_focus);
+    if (bench != nullptr && told.status.ok())
+        add_drift(figures, bench->work->drift());
+    figures.card = words.card;
+    told.flags = judge_and_record(told.record, figures, history);
 }
 
 /// The last file, and the commit.
@@ -164,18 +180,25 @@ Result<std::unique_ptr<SnapshotBench>> SnapshotBench::make(const Config& config)
 
 Result<SnapshotTold> take_snapshot(const Config& config, const SnapshotWords& words,
                                    const Result<std::unique_ptr<SnapshotBench>>& bench, const ClockReading& clock,
-                                   Store& store)
+                                   HealthHistory& history, Store& store)
 {
     SnapshotTold told = TRY(begin(config, words, clock, store));
+    std::optional<ShotFigures> seen;
     told.status = store.make_room();
     if (told.status.ok())
         told.status = bench.status();
     if (told.status.ok())
-        told.status = shoot(config, words, *bench.value(), clock, store, told);
+        told.status = shoot(config, words, *bench.value(), clock, store, told, seen);
     if (const auto overran = StageWatch::what_overran(); !told.status.ok() && !overran.empty())
         told.status = failure(Fault::kUnavailable, "%s", overran.c_str());
     told.record["memory"] = memory_record(bench.ok() ? bench.value()->work->budget().total() : 0);
     Status stored;
+    const auto judged = [&] {
+        HealthHistory after = history;
+        judge(words, bench.ok() ? bench.value().get() : nullptr, seen ? &*seen : nullptr, after, told);
+        return after;
+    };
+    HealthHistory after = judged();
     if (told.status.ok()) {
         stored = store_it(told, clock, store);
         told.status = stored; // what cannot be stored was not done
@@ -183,11 +206,13 @@ Result<SnapshotTold> take_snapshot(const Config& config, const SnapshotWords& wo
     if (!told.status.ok()) {
         told.record.erase("cloud"); // taken back as its file is
         told.record.erase("calibration_id");
+        after = judged();
         stored = store.take_back();
         if (stored.ok())
             stored = store_it(told, clock, store);
     }
     told.stored = stored.ok();
+    history = after;
     return told;
 }
 

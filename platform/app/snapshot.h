@@ -3,6 +3,8 @@
 
 #include "cloud_work.h"
 #include "config/config.h"
+#include "health/health_history.h"
+#include "health/judge_health.h"
 #include "run/slot_notes.h"
 
 #include "dicot/os/clock_trust.h"
@@ -36,6 +38,7 @@ struct SnapshotWords
     std::string device; ///< is_device_name()
     const char* source = "cameras";
     SlotNotes notes;
+    HealthCard card; ///< before it begins
 };
 
 /// "drawn pictures", "recorded pictures", "cameras".
@@ -49,17 +52,19 @@ struct SnapshotTold
     std::string folder;                     ///< from the store's folder
     Status status;                          ///< ok, or why it was missed
     bool stored = false;                    ///< a miss too: its record is in its place
+    HealthFlags flags;                      ///< what is wrong with the rig, as the record has it
     std::optional<std::int64_t> pair_at_us; ///< monotonic_us() when the cameras had given their pair
 };
 
 /// Takes the next number, shoots, and commits what there is: everything, or the record of a miss alone. A fault of
-/// `bench` is a miss as well. Error: the store gives no number.
+/// `bench` is a miss as well. The slot is judged by those before it, and added to `history`. Error: the store gives no
+/// number.
 Result<SnapshotTold> take_snapshot(const Config& config, const SnapshotWords& words,
                                    const Result<std::unique_ptr<SnapshotBench>>& bench, const ClockReading& clock,
-                                   Store& store);
+                                   HealthHistory& history, Store& store);
 
-/// Takes the next number for a slot that nobody could take, and commits the record of a miss, with `reason`.
-/// Errors: those of Store::begin(), add() and commit().
+/// Takes the next number for a slot that nobody could take, and commits the record of a miss, with `reason`. Nothing
+/// is judged. Errors: those of Store::begin(), add() and commit().
 Status record_miss(const Config& config, const SnapshotWords& how, const Status& reason, const ClockReading& clock,
                    Store& store);
 

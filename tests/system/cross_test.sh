@@ -1,6 +1,6 @@
 #!/bin/sh
-# Builds dicot for aarch64 and armhf, proves its kernels there under qemu-user, and checks that the files it writes are
-# byte for byte those of the native program.
+# Builds dicot's packages for aarch64 and armhf, holds them against what is promised, proves the kernels of the program in
+# them under qemu-user, and checks that the files it writes are byte for byte those of the native program.
 #
 #   cross_test.sh NATIVE_DICOT [LEFT RIGHT [BOARDS]]
 #
@@ -124,8 +124,12 @@ for arch in arm64 armhf; do
     esac
     sysroot=$(sh "$checkout/toolchain/cross/sysroot.sh" $arch)
     cmake -S "$checkout" --preset $arch >"$work/cmake.log" 2>&1 || { tail -30 "$work/cmake.log" >&2; exit 70; }
-    cmake --build "$checkout/.build/$arch" >"$work/build.log" 2>&1 || { tail -30 "$work/build.log" >&2; exit 70; }
-    program="$emulator -L $sysroot $checkout/.build/$arch/platform/app/dicot"
+    cmake --build "$checkout/.build/$arch" --target all package >"$work/build.log" 2>&1 ||
+        { tail -30 "$work/build.log" >&2; exit 70; }
+    package=$checkout/.build/$arch/dicot_$("$native" --version | sed 's/^dicot //')_$arch.deb
+    sh "$checkout/tests/system/package_test.sh" "$package" $arch "$emulator -L $sysroot" || failed=1
+    dpkg-deb -x "$package" "$work/board-$arch"
+    program="$emulator -L $sysroot $work/board-$arch/usr/bin/dicot"
 
     code=0
     sh "$checkout/tests/kernels/no_shared_code.sh" nm \

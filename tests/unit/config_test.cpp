@@ -119,6 +119,7 @@ const Promise kPromises[] = {
     {"schedule", "latitude", {"-90", "90", "52.52"}, {"-90.1", "90.1", "nan", "\"52N\""}},
     {"schedule", "longitude", {"-180", "180"}, {"-180.5", "181", "[13.4]"}},
     {"schedule", "late_min", {"0", "720"}, {"-1", "721", "1.5", "\"15m\""}},
+    {"run", "most_memory_mib", {"0", "1048576"}, {"-1", "1048577", "64.5", "\"64\""}},
 };
 
 const ConfigKey* known(const Promise& promise, std::size_t& place)

@@ -1,5 +1,8 @@
 // The pause between two slots, on a board whose clock, alarm and sleep are drawn: what a real one does is for the
 // machines of tests/vm.
+#include "dicot/os/heap_gate.h"
+#include "dicot/os/stage_watch.h"
+#include "dicot/power/cameras_power.h"
 #include "dicot/power/lead_time.h"
 #include "dicot/power/linux_board.h"
 #include "dicot/power/rest.h"
@@ -12,6 +15,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -367,6 +371,40 @@ TEST_F(RestTest, EndsInTimeWhateverIsDrawn)
             }
         }
     }
+}
+
+/// Sealed, the gate ends a program that asks operator new.
+TEST(RestDeathTest, TakesNothingFromTheHeap)
+{
+    if (!heap_gate::replaces_operator_new())
+        GTEST_SKIP() << "the sanitizer has an operator new of its own";
+    const TempFolder folder;
+    const std::string state = folder.path(""), stage = folder.path("stage"), request = folder.path("power-off");
+    const auto rest_once = [&] {
+        heap_gate::seal();
+        StageWatchRules watched;
+        watched.stage_file = stage.c_str();
+        StageWatch watch;
+        LinuxBoard board{"/nowhere/rtc0", "/nowhere"};
+        LeadTime lead;
+        lead.open(state.c_str());
+        RestRules rules;
+        rules.between = Between::kSuspend;
+        rules.state = std::string_view{state};
+        rules.request = std::string_view{request};
+        rules.least_rest_us = 0;
+        Rest rest{board, lead, rules};
+        CamerasPower cameras{CamerasBetween::kPort, "/nowhere"};
+        bool well = watch.open(watched).ok() && cameras.use("1-1", "1-2").ok() && !cameras.off().ok();
+        (void)rest.begun();
+        well = well && lead.note(LeadPart::kCameras, 0).ok() && lead.note(LeadPart::kResume, 0).ok(); // a second each
+        StageWatch::enter("match", kSecond);
+        StageWatch::leave();
+        const auto step = [] { return true; };
+        well = well && !rest.until({board.now_us() + 2'100'000, 1}, step).trouble.empty();
+        std::_Exit(well ? 0 : 1);
+    };
+    EXPECT_EXIT(rest_once(), testing::ExitedWithCode(0), "");
 }
 
 TEST(LinuxBoard, IdlesByTheRealClock)

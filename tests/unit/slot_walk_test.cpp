@@ -163,8 +163,9 @@ TEST(SlotWalk, ADayThatApiaNeverHadBringsNothingTwice)
 TEST(SlotWalk, SpacingIsTheSameOnDaysOf23And25Hours)
 {
     const TimeZone berlin = zone("Europe/Berlin");
+    const Schedule hourly = every("1h");
     const auto slots_of_day = [&](const char* first, int hours) {
-        SlotWalk walk(every("1h"), berlin, utc(first) - 1);
+        SlotWalk walk(hourly, berlin, utc(first) - 1);
         for (int i = 0; i < hours; ++i)
             EXPECT_EQ(walk.next()->due_us, utc(first) + i * kHourUs);
         return std::string{utc_text(berlin.local_us(walk.next()->due_us)).c_str()};
@@ -223,7 +224,8 @@ TEST(SlotWalk, APolarDayHasNoSunriseAndTheSeriesGoesOn)
     words.longitude = 18.96;
     const Schedule tromso = make_schedule(words).value();
     // Almanacs: the sun is up from 18 May to 26 July, and down from 27 November to 15 January.
-    SlotWalk walk(tromso, zone("Europe/Berlin"), utc("2026-01-01T00:00:00Z"));
+    const TimeZone berlin = zone("Europe/Berlin");
+    SlotWalk walk(tromso, berlin, utc("2026-01-01T00:00:00Z"));
     std::vector<std::int64_t> all;
     for (int i = 0; i < 600; ++i)
         all.push_back(walk.next()->due_us);

@@ -127,6 +127,7 @@ TEST(TimeZone, DatesOfRulesAreCountedAsPosixCounts)
     EXPECT_EQ(here.offset_s(*parse_utc_text("2023-03-01T00:00:00Z")), 3600);
     EXPECT_EQ(here.offset_s(*parse_utc_text("2024-02-27T22:59:59Z")), 3600);
     EXPECT_EQ(here.offset_s(*parse_utc_text("2024-02-27T23:00:00Z")), 0);
+    EXPECT_EQ(here.offset_s(*parse_utc_text("2024-02-29T23:59:59Z")), 0);
     EXPECT_EQ(here.offset_s(*parse_utc_text("2024-03-01T00:00:00Z")), 3600);
     const TimeZone always = zone("XXX3EDT4,0/0,J365/23"); // all the year: RFC 8536, 3.3.1
     for (int year = 2000; year < 2030; ++year)

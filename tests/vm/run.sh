@@ -28,7 +28,8 @@ while [ $# -gt 1 ]; do
         --log) log=$2 ;;
         --own-clock)
             # Nothing may pass while the disk works: no flush of ours, and a guest that looks up every 4 ms.
-            clock="-icount shift=3,sleep=off -rtc clock=vm,base=$2"
+            sh "$(dirname "$0")/sleeper.sh" "$image.dtb" || exit
+            clock="-icount shift=3,sleep=off -rtc clock=vm,base=$2 -dtb $image.dtb"
             kernel_words='nohz=off' flush=',cache.no-flush=on'
             ;;
         --cut) end=$2 ;;
@@ -78,7 +79,9 @@ timeout --foreground --kill-after=5 "$timeout_s" qemu-system-aarch64 -M virt -cp
 machine=$!
 while [ "$end" != 'done' ] && kill -0 $machine 2>/dev/null; do
     sleep 0.05
-    ! tr -d '\r' <"$log.raw" | grep -qx "dicot-vm: $end" || kill -KILL "$(cat "$log.pid")"
+    tr -d '\r' <"$log.raw" | grep -qx "dicot-vm: $end" || continue
+    kill -KILL "$(cat "$log.pid")"
+    break
 done
 wait $machine
 tr -d '\r' <"$log.raw" >"$log"
@@ -101,7 +104,7 @@ if [ -n "$complaints" ]; then
 fi
 if [ -n "$out" ] && [ "$end" = 'done' ] && grep -q '^dicot-vm: done$' "$log"; then
     mkdir -p "$out"
-    tar -x -f "$disk" -C "$out" || complain "what the machine handed out cannot be read"
+    tar -x -m -f "$disk" -C "$out" || complain "what the machine handed out cannot be read"
 fi
 if ! grep -q "^dicot-vm: $end\$" "$log"; then
     echo "the log ends so ($log):"

@@ -75,8 +75,14 @@ for deb in "$fresh"/debs/*.deb; do
     for word in preinst postinst prerm postrm conffiles triggers md5sums; do
         [ ! -f "$fresh/words/$word" ] || mv "$fresh/words/$word" "$database/info/$name.$word"
     done
+    # Whom a file below a folder, or another package's word, is of interest to: without it dpkg takes all for just triggered.
+    sed -n 's,^interest\(-await\)* *\(/.*\),\2 ,p; s,^interest-noawait *\(/.*\),\1 /noawait,p' "$database/info/$name.triggers" 2>/dev/null |
+        while read -r path how; do echo "$path $name${how:-}"; done >>"$database/triggers/File"
+    sed -n 's,^interest\(-await\)* *\([^/]*\)$,\2 ,p; s,^interest-noawait *\([^/]*\)$,\1 /noawait,p' "$database/info/$name.triggers" 2>/dev/null |
+        while read -r word how; do echo "$name${how:-}" >>"$database/triggers/$word"; done
     rm -rf "$fresh/words"
 done
+: >"$database/triggers/Unincorp"
 
 # What the packages' scripts would have done: accounts, the machine's name, a shell, the libraries' index.
 for file in passwd group; do cp "$root/usr/share/base-passwd/$file.master" "$root/etc/$file"; done

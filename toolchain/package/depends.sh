@@ -11,6 +11,10 @@ output=$2
 architecture=$3
 sysroot=${4:-}
 
+if ! command -v dpkg-shlibdeps >/dev/null; then
+    echo "depends.sh: dpkg-shlibdeps is missing; install the package dpkg-dev" >&2
+    exit 69
+fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/debian"

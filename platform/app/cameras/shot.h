@@ -20,12 +20,12 @@ struct ShotFigures
 {
     BurstFigures burst;
     LumaFigures left, right; ///< of the pictures that were kept
-    aiming::Focus left_focus, right_focus;
-    std::optional<aiming::Views> views; ///< none: pictures of a size that is not compared
-    std::int64_t taken_us = 0;          ///< since 1970, UTC, when the pair was there
-    std::int64_t ready_us = 0;          ///< the same, as monotonic_us() has it
-    double wait_s = 0;                  ///< from asking to having it
-    double cpu_s = 0;                   ///< processor time of that, all threads
+    aiming::Focus left_focus, right_focus; ///< as those were
+    std::optional<aiming::Views> views;    ///< none: pictures of a size that is not compared
+    std::int64_t taken_us = 0;             ///< since 1970, UTC, when the pair was there
+    std::int64_t ready_us = 0;             ///< the same, as monotonic_us() has it
+    double wait_s = 0;                     ///< from asking to having it
+    double cpu_s = 0;                      ///< processor time of that, all threads
 };
 
 /// Switches cameras on and takes pairs. Nothing is allocated outside the arenas after open().

@@ -2,6 +2,7 @@
 
 #include "journal.h"
 
+#include "../health/health_record.h"
 #include "../stop_request.h"
 
 #include "dicot/base/utc_time.h"
@@ -45,7 +46,7 @@ bool goes_on()
 
 } // namespace
 
-Status Series::with_store(FunctionRef<Status(Store&)> work)
+Status Series::with_store(FunctionRef<Status(Store&, Medium&)> work)
 {
     return parts_.in_office([&]() -> Status {
         StoreRules rules = rules_of(parts_.config.output);
@@ -54,14 +55,15 @@ Status Series::with_store(FunctionRef<Status(Store&)> work)
         cause_ = {};
         journal_start(opened.store->start_report());
         newest_us_ = TRY(newest_time(opened.store->catalogue()));
-        return work(*opened.store);
+        return work(*opened.store, *opened.medium);
     });
 }
 
 Status Series::begin(const ShortText<159>& cause)
 {
     cause_ = cause;
-    return with_store([&](Store& store) -> Status {
+    return with_store([&](Store& store, Medium& medium) -> Status {
+        history_ = read_history(medium, store.catalogue());
         if (const auto newest = TRY(store.catalogue().newest_planned(parts_.time.earliest_us())))
             last_due_us_ = newest->due_us;
         return {};
@@ -94,7 +96,7 @@ Plan Series::catch_up(const ClockReading& clock)
 Status Series::file_missed(const ClockReading& clock, Plan& found)
 {
     journal(Priority::kWarning, "%" PRId64 " slots were missed: %s", found.missed + found.missed_older, missed_why_);
-    return with_store([&](Store& store) -> Status {
+    return with_store([&](Store& store, Medium&) -> Status {
         Status status;
         std::int64_t older = found.missed_older;
         (void)plan(clock, [&](const Slot& slot) {
@@ -136,6 +138,11 @@ void Series::tell(const SnapshotTold& told, const Slot* slot)
     const ShortText<63> planned = slot != nullptr ? words_of(*slot) : ShortText<63>{"not planned"};
     for (const std::string& warning : told.warnings)
         journal(Priority::kWarning, "%s: %s", told.folder.c_str(), warning.c_str());
+    for (const HealthFlag& flag : told.flags)
+        journal(flag.severity == Severity::kAlarm     ? Priority::kError
+                : flag.severity == Severity::kWarning ? Priority::kWarning
+                                                      : Priority::kNotice,
+                "health: %s: %s; %s", flag.id, flag.cause.c_str(), flag.action.c_str());
     if (told.status.ok())
         journal(Priority::kInfo, "%s done: %s, %" PRId64 " points", told.folder.c_str(), planned.c_str(),
                 told.record["cloud"]["points"].get<std::int64_t>());
@@ -153,9 +160,10 @@ Status Series::take(const Slot* slot, const Woken& woken)
     if (const Status on = parts_.cameras.on(); !on.ok())
         journal(Priority::kWarning, "%s", on.message());
     const ClockReading clock = parts_.time.now(newest_us_);
-    const Status status = with_store([&](Store& store) -> Status {
+    const Status status = with_store([&](Store& store, Medium& medium) -> Status {
         SnapshotWords how = how_;
         how.notes = {};
+        how.card = card_health(medium, store.catalogue(), rules_of(parts_.config.output).reserve_bytes);
         how.notes.clock_shift_us = parts_.time.shift_us();
         if (slot != nullptr) {
             how.notes.due_us = slot->due_us;
@@ -163,7 +171,7 @@ Status Series::take(const Slot* slot, const Woken& woken)
             how.notes.woken = woken;
             how.notes.begun_us = parts_.time.begin_us(slot->due_us);
         }
-        SnapshotTold told = TRY(take_snapshot(parts_.config, how, parts_.bench, clock, store));
+        SnapshotTold told = TRY(take_snapshot(parts_.config, how, parts_.bench, clock, history_, store));
         has_row = true;
         pair_at_us = told.pair_at_us;
         tell(told, slot);

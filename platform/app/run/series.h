@@ -49,7 +49,7 @@ public:
     Status once();
 
 private:
-    Status with_store(FunctionRef<Status(Store&)> work);
+    Status with_store(FunctionRef<Status(Store&, Medium&)> work);
     Plan plan(const ClockReading& clock, FunctionRef<bool(const Slot&)> missed) const;
     Plan catch_up(const ClockReading& clock);
     Status file_missed(const ClockReading& clock, Plan& plan);

@@ -3,14 +3,14 @@ clouds=/var/lib/dicot/clouds
 day=$(date -u +%F)
 export clouds day
 # Programs start slowly under emulation; a look now and then is enough.
-usleep() { sleep 0.5; }
+usleep() { sleep 1; }
 
 slots() { dicot list --store "$clouds" --json | grep '"sequence"'; }
 # A slot by its hour, as "10:40" of the day, or by day and hour; a line of JSON.
 slot() { case $1 in *T*) due=$1 ;; *) due=${day}T$1 ;; esac; slots | grep "\"due\": *\"$due:00Z\""; }
-is_done() { slot "$1" | grep '"state": *"done"'; }
+is_done() { slot "$1" | grep '"outcome": *"done"'; }
 is_missed() { # hour, words of its reason
-    slot "$1" | grep '"state": *"missed"' | grep -E "\"reason\": *\"[^\"]*($2)"
+    slot "$1" | grep '"outcome": *"missed"' | grep -E "\"reason\": *\"[^\"]*($2)"
 }
 record() { # hour: that of a slot that is done
     grep -lr "\"due\": \"${day}T$1:00Z\"" "$clouds/board" --include=record.json | head -n 1

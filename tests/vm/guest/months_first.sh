@@ -47,6 +47,7 @@ judge service.is_nobody is_nobody
 # Of its own sockets only those of the system's log and manager, and the kernel's news; and nothing in its network listens.
 listens_to_nothing() {
     pid=$(process)
+    [ "$pid" -gt 0 ] || return
     for table in tcp tcp6 udp udp6 udplite raw raw6 packet; do
         [ -f "/proc/$pid/net/$table" ] || continue
         [ "$(tail -n +2 "/proc/$pid/net/$table" | wc -l)" = 0 ] || { cat "/proc/$pid/net/$table"; return 1; }

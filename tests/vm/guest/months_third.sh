@@ -24,7 +24,7 @@ judge series.each_slot_has_one_row one_row
 as_expected() {
     cut -c 1-400 /out/slots
     for hour in 10:10 10:20 10:30 10:50 11:10 11:40 12:00 12:10; do is_done $hour || return; done
-    [ "$(grep -c '"state": *"done"' /out/slots)" = 10 ] && [ "$(grep -c '"state": *"missed"' /out/slots)" = 5 ]
+    [ "$(grep -c '"outcome": *"done"' /out/slots)" = 10 ] && [ "$(grep -c '"outcome": *"missed"' /out/slots)" = 5 ]
 }
 judge series.as_expected as_expected
 judge series.verified dicot verify --store "${clouds:?}"

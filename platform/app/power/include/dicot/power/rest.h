@@ -62,6 +62,8 @@ struct RestRules
 class Board
 {
 public:
+    virtual ~Board() = default;
+
     virtual std::int64_t now_us() noexcept = 0;      ///< UTC, what the system's clock shows
     virtual std::int64_t boottime_us() noexcept = 0; ///< since the start, sleep included
     virtual BootId boot() noexcept = 0;
@@ -69,9 +71,6 @@ public:
     virtual Status wake_after(std::int64_t after_s) noexcept = 0; ///< the alarm
     virtual Status no_alarm() noexcept = 0;
     virtual Result<Slept> suspend() noexcept = 0;
-
-protected:
-    ~Board() = default;
 };
 
 /// One rest after the other. Nothing that fails ends the series: what cannot suspend or be powered off idles, and says

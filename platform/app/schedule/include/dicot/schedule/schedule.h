@@ -82,6 +82,8 @@ class SlotWalk
 public:
     /// Begins with the first slot that is due after `after_us`.
     SlotWalk(const Schedule& schedule, const TimeZone& zone, std::int64_t after_us) noexcept;
+    SlotWalk(const Schedule&&, const TimeZone&, std::int64_t) = delete; // it borrows
+    SlotWalk(const Schedule&, const TimeZone&&, std::int64_t) = delete;
 
     /// None: the schedule is empty, or the sun neither rises nor sets for more than a year.
     std::optional<Slot> next() noexcept;
