@@ -97,7 +97,6 @@ const Promise kPromises[] = {
     {"watchdog", "stage_s", {"10", "21600"}, {"9", "21601", "\"900\""}},
     {"run", "state", {R"("/s/t")"}, {R"("")", "[]"}},
     {"run", "lock_memory", {"true", "false"}, {"1"}},
-    {"run", "most_memory_mib", {"0", "64", "1048576"}, {"-1", "1048577", "1.5", "\"64\""}},
     {"schedule",
      "timezone",
      {R"("")", R"("UTC")", R"("CET-1CEST,M3.5.0,M10.5.0/3")", R"("<+0545>-5:45")"},
