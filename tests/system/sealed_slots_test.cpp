@@ -1,6 +1,7 @@
 // Slot after slot behind the sealed heap: nothing is taken that was not there at the start.
 #include "flat_pair.h"
 
+#include "health/health_record.h"
 #include "run/run_memory.h"
 #include "snapshot.h"
 #include "store/board_store.h"
@@ -122,6 +123,7 @@ TEST_F(SealedSlots, TakeNothingOutsideTheArenasWhateverBefallsTheCameras)
     std::vector<Rest> rests(static_cast<std::size_t>(slots));
     std::vector<int> wrong; // numbers of the slots that did not end as they should
     wrong.reserve(static_cast<std::size_t>(slots));
+    app::HealthHistory history;
     std::size_t heap_before = 0;
     std::size_t heap_after = 0;
     app::RunMemoryFigures told;
@@ -139,7 +141,8 @@ TEST_F(SealedSlots, TakeNothingOutsideTheArenasWhateverBefallsTheCameras)
             clock.now_us = kJuneUs + slot * kHourUs;
             const Status status = memory->safely([&]() -> Status {
                 const auto opened = TRY(board.open_patiently({.reserve_bytes = 0, .prune = Prune::kAll}));
-                const auto shot = TRY(app::take_snapshot(configs[fate], how, bench, clock, *opened.store));
+                how.card = app::card_health(*opened.medium, opened.store->catalogue(), 0);
+                const auto shot = TRY(app::take_snapshot(configs[fate], how, bench, clock, history, *opened.store));
                 done = shot.status.ok();
                 stored = shot.stored;
                 return {};
