@@ -94,6 +94,23 @@ TEST(ServiceNotice, ReachesAPathAndAnAbstractName)
     }
 }
 
+TEST(ServiceNotice, AsksASupervisorThatWatchesToBearASleepAndThenTakesItBack)
+{
+    const TempFolder folder;
+    for (const char* const watchdog_us : {"180000000", static_cast<const char*>(nullptr)}) {
+        const Supervisor supervisor{folder.path(watchdog_us != nullptr ? "watches" : "does-not"), watchdog_us};
+        ServiceNotice notice;
+        ASSERT_TRUE(notice.open().ok());
+        notice.bear(600'000'000);
+        notice.bear(0);
+        const std::vector<std::string> heard = supervisor.heard();
+        if (watchdog_us != nullptr)
+            EXPECT_THAT(heard, ElementsAre("WATCHDOG_USEC=780000000", "WATCHDOG_USEC=180000000"));
+        else
+            EXPECT_TRUE(heard.empty());
+    }
+}
+
 TEST(ServiceNotice, IsSilentWithoutASupervisor)
 {
     ServiceNotice notice;

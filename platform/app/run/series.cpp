@@ -21,6 +21,8 @@ constexpr const char* kClockSet = "the board's clock was set past it";
 constexpr const char* kOverslept = "the board was not awake in time";
 constexpr const char* kBusy = "the slot before it was still being worked on";
 
+constexpr std::int64_t kJumpUs = 30'000'000; ///< of the clock, while a slot was taken
+
 void journal_start(const StartReport& report)
 {
     if (report.finished + report.interrupted + report.left_over + report.rows_added > 0)
@@ -125,7 +127,12 @@ Woken Series::rest(const Slot& slot)
     std::snprintf(text, sizeof text, "next slot %s", words_of(slot).c_str());
     parts_.watch.status(text);
     StageWatch::leave();
+    const bool sleeps = parts_.config.power.between == "suspend";
+    if (sleeps)
+        parts_.watch.bear(std::max<std::int64_t>(slot.due_us - parts_.time.now(newest_us_).now_us, 0));
     const Woken woken = parts_.time.rest({.due_us = slot.due_us, .slot = 0}, [] { return goes_on(); });
+    if (sleeps)
+        parts_.watch.bear(0);
     if (!woken.trouble.empty())
         journal(Priority::kWarning, "%s", woken.trouble.c_str());
     if (woken.reason == WakeReason::kClockChanged)
@@ -214,9 +221,12 @@ Status Series::run(std::optional<std::int64_t> slots)
                 rested.reason == WakeReason::kClockChanged)
                 continue; // the plan may be another one by now
         }
+        const std::int64_t began_us = monotonic_us();
+        const std::int64_t showed_us = parts_.time.now(newest_us_).now_us;
         (void)take(&*found.next, woken);
         woken = {};
-        missed_why_ = kBusy;
+        const std::int64_t jumped_us = parts_.time.now(newest_us_).now_us - showed_us - (monotonic_us() - began_us);
+        missed_why_ = jumped_us > kJumpUs ? kClockSet : kBusy;
         if (slots && --*slots <= 0)
             return {};
     }

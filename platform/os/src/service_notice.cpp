@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <charconv>
+#include <cinttypes>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
@@ -81,6 +82,15 @@ void ServiceNotice::stopping() noexcept
 void ServiceNotice::alive() noexcept
 {
     send("WATCHDOG=1");
+}
+
+void ServiceNotice::bear(std::int64_t more_us) noexcept
+{
+    if (most_silence_us_ <= 0)
+        return;
+    char words[64];
+    std::snprintf(words, sizeof words, "WATCHDOG_USEC=%" PRId64, most_silence_us_ + more_us);
+    send(words);
 }
 
 void ServiceNotice::status(const char* text) noexcept

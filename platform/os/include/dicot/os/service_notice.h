@@ -31,6 +31,8 @@ public:
     void ready() noexcept;
     void stopping() noexcept;
     void alive() noexcept;
+    /// It bears so much more silence from now on; 0: as at the start. Nothing if it does not watch.
+    void bear(std::int64_t more_us) noexcept;
     void status(const char* text) noexcept; ///< one line; control characters are sent as blanks
 
 private:

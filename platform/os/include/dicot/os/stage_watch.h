@@ -44,6 +44,9 @@ public:
     /// The program is up: READY=1.
     void ready() noexcept { notice_.ready(); }
     void status(const char* text) noexcept { notice_.status(text); } ///< what `systemctl status` shows
+    /// A sleep of the board is to come: where the kernel's monotonic clock runs on in it, the supervisor would take it
+    /// for silence. 0: it is over.
+    void bear(std::int64_t more_us) noexcept { notice_.bear(more_us); }
     /// How often progress() is to be said at least, to be on the safe side: a third of the least patient watchdog.
     std::int64_t most_silence_us() const noexcept;
 
