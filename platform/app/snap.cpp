@@ -47,7 +47,7 @@ void report(const Words& words, SnapshotTold& told, const std::string& path)
     for (const std::string& warning : told.warnings)
         std::fprintf(stderr, "dicot: %s: %s\n", folder.c_str(), warning.c_str());
     for (const HealthFlag& flag : told.flags)
-        std::fprintf(stderr, "dicot: %s: %s; %s\n", name_of(flag.severity), flag.cause.c_str(), flag.action.c_str());
+        std::fprintf(stderr, "dicot: %s: %s %s\n", name_of(flag.severity), flag.cause.c_str(), flag.action.c_str());
     if (words.json) {
         told.record["folder"] = folder;
         std::printf("%s\n", text_of_record(told.record).c_str());

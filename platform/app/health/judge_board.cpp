@@ -67,7 +67,7 @@ void judge_start(const HealthHistory& history, const HealthFigures& now, HealthF
                                "program was stopped.",
                                found.interrupted + found.left_over + found.finished),
                    "See to the supply: a battery that sags, a plug, a switch; dicot list tells which were missed."});
-    else if (found.catalogue_new)
+    else if (found.catalogue_new && now.sequence > 1) // the first slot of a store makes its catalogue
         flags.add({"start", Severity::kNotice,
                    "The catalogue was damaged or missing, and was made again of the folders.",
                    "Run dicot verify: if more is damaged, the card is dying."});

@@ -149,7 +149,7 @@ void Series::tell(const SnapshotTold& told, const Slot* slot)
         journal(flag.severity == Severity::kAlarm     ? Priority::kError
                 : flag.severity == Severity::kWarning ? Priority::kWarning
                                                       : Priority::kNotice,
-                "health: %s: %s; %s", flag.id, flag.cause.c_str(), flag.action.c_str());
+                "health: %s: %s %s", flag.id, flag.cause.c_str(), flag.action.c_str());
     if (told.status.ok())
         journal(Priority::kInfo, "%s done: %s, %" PRId64 " points", told.folder.c_str(), planned.c_str(),
                 told.record["cloud"]["points"].get<std::int64_t>());
