@@ -19,7 +19,7 @@ namespace dicot::app {
 struct ShotFigures
 {
     BurstFigures burst;
-    LumaFigures left, right; ///< of the pictures that were kept
+    LumaFigures left, right;               ///< of the pictures that were kept
     aiming::Focus left_focus, right_focus; ///< as those were
     std::optional<aiming::Views> views;    ///< none: pictures of a size that is not compared
     std::int64_t taken_us = 0;             ///< since 1970, UTC, when the pair was there
