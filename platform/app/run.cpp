@@ -47,16 +47,21 @@ ShortText<159> cause_of(const StageWatch& watch)
     return words_of(*watch.previous()).view();
 }
 
-void open_watch(StageWatch& watch, const Config& config, const std::string& state)
+/// Fault::kTryAgain: another dicot run has this state. Whatever else does not work is told, and done without.
+Status open_watch(StageWatch& watch, const Config& config, const std::string& state)
 {
     const std::string file = state.empty() ? "" : state + "/stage";
     StageWatchRules rules;
     rules.device = config.watchdog.device.c_str();
     rules.stage_file = file.c_str();
-    if (const Status opened = watch.open(rules); !opened.ok())
+    const Status opened = watch.open(rules);
+    if (opened.fault() == Fault::kTryAgain)
+        return opened;
+    if (!opened.ok())
         journal(Priority::kWarning, "%s", opened.message());
     if (!watch.device_trouble().ok())
         journal(Priority::kWarning, "%s", watch.device_trouble().message());
+    return {};
 }
 
 Result<std::int64_t> told_from(const Words& words)
@@ -124,7 +129,7 @@ Status go(const Words& words, const Config& config, const Schedule& schedule, co
         time = std::make_unique<BoardTime>(used);
     const StopRequest stop;
     StageWatch watch;
-    open_watch(watch, config, used.run.state);
+    TRY(open_watch(watch, config, used.run.state));
     const Result<std::unique_ptr<SnapshotBench>> bench = SnapshotBench::make(config);
     if (bench.status().fault() == Fault::kConfig || bench.status().fault() == Fault::kUsage)
         return bench.status();

@@ -88,6 +88,13 @@ std::string record_words(const json& record)
         if (const json& value = at(record, keys); !value.is_null())
             text += line(what, words_of(value));
     };
+    if (const json& plan = at(record, {"plan"}); plan.is_object()) {
+        const json& woken = at(plan, {"woken"});
+        text += line("plan", words_of(at(plan, {"why"})) +
+                                 (woken.is_object() ? ", begun after rest: " + words_of(at(woken, {"rest"})) +
+                                                          ", ended by " + words_of(at(woken, {"by"}))
+                                                    : std::string{}));
+    }
     add("source", {"source"});
     if (const json& cloud = at(record, {"cloud"}); cloud.is_object())
         text +=
@@ -118,6 +125,9 @@ std::string record_words(const json& record)
     if (const json& warnings = at(record, {"warnings"}); warnings.is_array())
         for (const json& warning : warnings)
             text += line("warning", words_of(warning));
+    if (const json& flags = at(record, {"health", "flags"}); flags.is_array())
+        for (const json& flag : flags)
+            text += line("health", words_of(at(flag, {"cause"})) + " " + words_of(at(flag, {"action"})));
     add("software", {"software"});
     return text;
 }

@@ -1,5 +1,5 @@
 # One snapshot through each driver, beside the cloud that was made of the files: runs in the virtual machine.
-#expect snap.v4l2.equals_process snap.uvc.equals_process snap.store snap.missed_camera
+#expect snap.v4l2.equals_process snap.uvc.equals_process snap.uvc.sealed snap.store snap.missed_camera
 # shellcheck source=tests/vm/guest/cameras.sh
 . /vm/cameras.sh
 
@@ -24,6 +24,12 @@ folder() { # of the newest slot
 start ,fps=15/5
 judge snap.v4l2.equals_process equals v4l2 35
 judge snap.uvc.equals_process equals uvc 11
+# libusb and libudev behind the sealed heap: anything that asks for memory outside of the arenas ends the program.
+sealed() {
+    sed "s/DRIVER/uvc/; s/WINDOW/3/" /files/dicot.toml >run.toml
+    timeout 240 dicot run --once --config run.toml -o sealed && dicot list --store sealed --json | grep '"outcome":"done"'
+}
+judge snap.uvc.sealed sealed
 stored() {
     dicot verify --store shots && dicot show 2 --store shots && [ "$(echo shots/board/*/*/cloud.drc | wc -w)" = 2 ]
 }
