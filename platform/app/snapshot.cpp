@@ -217,9 +217,11 @@ Result<SnapshotTold> take_snapshot(const Config& config, const SnapshotWords& wo
 }
 
 Status record_miss(const Config& config, const SnapshotWords& how, const Status& reason, const ClockReading& clock,
-                   Store& store)
+                   Store& store, bool& begun)
 {
+    begun = false;
     SnapshotTold told = TRY(begin(config, how, clock, store));
+    begun = true;
     told.status = reason;
     return store_it(told, clock, store);
 }

@@ -29,7 +29,7 @@ protected:
     {
         const char* const kCamera[] = {"replay_script_left = 'gone 1'\n", "replay_script_right = 'hang 1'\n",
                                        "replay_script = 'torn 1'\n", "replay_script_right = 'gone 2'\n"};
-        const int kind = draw(6);
+        const int kind = draw(7);
         const int slots = 1 + draw(8);
         reserve_mib_ = kind == 2 ? 1 << 20 : 0; // the card is full
         write_config(kind == 1 ? kCamera[draw(4)] : "", "", "every = '30m'\n");
@@ -40,6 +40,14 @@ protected:
             const std::string after = std::to_string(0.02 + draw(400) / 1000.0);
             (void)test::run("timeout -s KILL " + after + " " + command("run --rehearse 40 --from " + from));
             return "killed after " + after + " s";
+        }
+        if (kind == 6 && std::filesystem::exists(own_.path("store/bench"))) { // the card is taken out, and put back
+            const std::string bench = own_.path("store/bench");
+            const std::string away = own_.path("store/away");
+            (void)test::run("(sleep 0." + std::to_string(1 + draw(4)) + "; mv " + bench + " " + away +
+                            "; sleep 0.1; mv " + away + " " + bench + ") & " +
+                            command("run --rehearse 60 --from " + from) + "; wait");
+            return "the card was away";
         }
         const ToolRun run =
             kind == 5 ? test::run("(ulimit -f 4; " +

@@ -191,7 +191,7 @@ TEST(Health, MissesInARowAreCountedToTheNextSnapshot)
     EXPECT_THAT(ids(judge_health(history, miss)), IsEmpty()) << "one alone";
     history.add(miss);
     const HealthFlags two = judge_health(history, miss);
-    ASSERT_THAT(ids(two), ElementsAre("cameras"));
+    ASSERT_THAT(ids(two), ElementsAre("missed"));
     EXPECT_THAT(std::string(two.begin()->cause.view()), HasSubstr("2 slots in a row"));
     for (int i = 0; i < 4; ++i)
         history.add(miss);

@@ -283,6 +283,23 @@ TEST_F(RestTest, AsksToBePoweredOffWithTheAlarmSetAndKnowsWhyItIsBack)
     EXPECT_EQ(again.begun().reason, WakeReason::kOther) << "the program was started again, the board was up";
 }
 
+TEST_F(RestTest, DoesNotPowerOffInTheFaceOfWhoSwitchedTheBoardOn)
+{
+    Rest rest{board_, lead_, rules(Between::kOff)};
+    ASSERT_NE(rest.begun().reason, WakeReason::kAlarm);
+    const std::int64_t began_us = board_.now_us();
+    const Woken woken = rest.until({began_us + 5 * kHour, 5}, [&] {
+        EXPECT_FALSE(exists("power-off"));
+        return true;
+    });
+    EXPECT_EQ(woken.reason, WakeReason::kTime);
+    EXPECT_EQ(board_.now_us(), began_us + 600 * kSecond) << "ten minutes to log in";
+    (void)rest.until({began_us + 5 * kHour, 5}, [&] {
+        EXPECT_TRUE(exists("power-off"));
+        return false;
+    });
+}
+
 TEST_F(RestTest, TellsPowerThatCameBackFromTheAlarm)
 {
     Rest rest{board_, lead_, rules(Between::kOff)};
@@ -330,6 +347,7 @@ TEST_F(RestTest, GoesOnWhereItCanWriteNothing)
     lead_.open("/nowhere");
     Rest rest{board_, lead_, nowhere};
     EXPECT_FALSE(rest.begun().trouble.empty());
+    (void)rest.until({kNoon + kHour, 5}, go_on); // the first ten minutes
     EXPECT_EQ(rest.until({kNoon + kHour, 5}, go_on).reason, WakeReason::kTime);
     EXPECT_EQ(board_.now_us(), kNoon + kHour - 30 * kSecond);
     EXPECT_FALSE(open_state_folder("/nowhere/state").ok());

@@ -86,8 +86,9 @@ void judge_cameras(const HealthHistory& history, const HealthFigures& now, Healt
         "tells what is there, dicot list --missed why.";
     const int misses = now.done ? 0 : history.misses_in_a_row() + 1;
     if (misses >= kMissesInARow)
-        flags.add({"cameras", misses >= kManyMissesInARow ? Severity::kAlarm : Severity::kWarning,
-                   health_text("%d slots in a row were missed.", misses), kAction});
+        flags.add({"missed", misses >= kManyMissesInARow ? Severity::kAlarm : Severity::kWarning,
+                   health_text("%d slots in a row were missed.", misses),
+                   "See what dicot list --missed says of them: each has its reason."});
     else if (now.gave_up)
         flags.add({"cameras", Severity::kWarning, "A camera stopped and did not come back.", kAction});
     else if (now.shakes > 0)

@@ -87,38 +87,65 @@ Plan Series::plan(const ClockReading& clock, FunctionRef<bool(const Slot&)> miss
 Plan Series::catch_up(const ClockReading& clock)
 {
     Plan found = plan(clock, [](const Slot&) { return true; });
-    if (found.missed == 0)
+    if (found.missed == 0 || !found.next)
         return found;
-    const Status filed = file_missed(clock, found);
-    if (!filed.ok())
-        journal(Priority::kError, "%" PRId64 " missed slots have no row yet: %s", found.missed, filed.message());
+    journal(Priority::kWarning, "%" PRId64 " slots were missed: %s", found.missed + found.missed_older,
+            owed_until_us_ > 0 ? owed_why_.c_str() : missed_why_);
+    const std::int64_t until_us = found.next->due_us;
+    const Status filed = with_store([&](Store& store, Medium&) { return file_missed(store, clock, until_us); });
+    if (!filed.ok()) {
+        owe(until_us, missed_why_);
+        journal(Priority::kError, "not all of them have a row yet: %s", filed.message());
+    }
     return found;
 }
 
-Status Series::file_missed(const ClockReading& clock, Plan& found)
+/// What is due before `until_us` and has no row gets it later, with this reason.
+void Series::owe(std::int64_t until_us, const char* why)
 {
-    journal(Priority::kWarning, "%" PRId64 " slots were missed: %s", found.missed + found.missed_older, missed_why_);
-    return with_store([&](Store& store, Medium&) -> Status {
-        Status status;
-        std::int64_t older = found.missed_older;
-        (void)plan(clock, [&](const Slot& slot) {
-            SnapshotWords how = how_;
-            how.notes = {};
-            how.notes.due_us = slot.due_us;
-            how.notes.why = slot.why.view();
-            status = older > 0 ? record_miss(parts_.config, how,
-                                             failure(Fault::kUnavailable, "%s; so were %" PRId64 " slots before it",
-                                                     missed_why_, older),
-                                             clock, store)
-                               : record_miss(parts_.config, how, failure(Fault::kUnavailable, "%s", missed_why_), clock,
-                                             store);
-            older = 0;
-            if (status.ok())
-                last_due_us_ = slot.due_us;
-            return status.ok() && goes_on();
-        });
-        return status;
-    });
+    if (owed_until_us_ == 0)
+        owed_why_ = why;
+    owed_until_us_ = std::max(owed_until_us_, until_us);
+}
+
+/// A row for each slot after the newest one that has its row, as far as `until_us`: so none is ever without.
+Status Series::file_missed(Store& store, const ClockReading& clock, std::int64_t until_us)
+{
+    if (!last_due_us_ || clock.trust == ClockTrust::kNotSet)
+        return {};
+    std::int64_t count = 0;
+    SlotWalk counted(parts_.schedule, parts_.zone, *last_due_us_);
+    for (auto slot = counted.next(); slot && slot->due_us < until_us; slot = counted.next())
+        ++count;
+    std::int64_t older = std::max<std::int64_t>(count - kMostMissedRows, 0);
+    SlotWalk walk(parts_.schedule, parts_.zone, *last_due_us_);
+    for (std::int64_t i = 0; i < older; ++i)
+        (void)walk.next();
+    for (std::int64_t i = older; i < count && goes_on(); ++i) {
+        TRY(file_one(store, clock, *walk.next(), older));
+        older = 0;
+    }
+    owed_until_us_ = 0;
+    return {};
+}
+
+Status Series::file_one(Store& store, const ClockReading& clock, const Slot& slot, std::int64_t older)
+{
+    SnapshotWords how = how_;
+    how.notes = {};
+    how.notes.due_us = slot.due_us;
+    how.notes.why = slot.why.view();
+    const char* const why = slot.due_us < owed_until_us_ ? owed_why_.c_str() : missed_why_;
+    const Status reason = older > 0
+                              ? failure(Fault::kUnavailable, "%s; so were %" PRId64 " slots before it", why, older)
+                              : failure(Fault::kUnavailable, "%s", why);
+    bool begun = false;
+    const Status filed = record_miss(parts_.config, how, reason, clock, store, begun);
+    if (begun)
+        last_due_us_ = slot.due_us;
+    if (begun && !filed.ok())
+        cause_ = ShortText<159>{reason.message()};
+    return filed;
 }
 
 Woken Series::rest(const Slot& slot)
@@ -161,42 +188,55 @@ void Series::tell(const SnapshotTold& told, const Slot* slot)
 
 Status Series::take(const Slot* slot, const Woken& woken)
 {
-    const std::int64_t began_us = monotonic_us();
+    std::int64_t began_us = 0;
     std::optional<std::int64_t> pair_at_us;
     bool has_row = false;
     if (const Status on = parts_.cameras.on(); !on.ok())
         journal(Priority::kWarning, "%s", on.message());
     const ClockReading clock = parts_.time.now(newest_us_);
     const Status status = with_store([&](Store& store, Medium& medium) -> Status {
-        SnapshotWords how = how_;
-        how.notes = {};
-        how.card = card_health(medium, store.catalogue(), rules_of(parts_.config.output).reserve_bytes);
-        how.notes.clock_shift_us = parts_.time.shift_us();
-        if (slot != nullptr) {
-            how.notes.due_us = slot->due_us;
-            how.notes.why = slot->why.view();
-            how.notes.woken = woken;
-            how.notes.begun_us = parts_.time.begin_us(slot->due_us);
-        }
-        SnapshotTold told = TRY(take_snapshot(parts_.config, how, parts_.bench, clock, history_, store));
+        if (slot != nullptr)
+            TRY(file_missed(store, clock, slot->due_us));
+        began_us = monotonic_us(); // waiting for the store is no warming up
+        SnapshotTold told = TRY(
+            take_snapshot(parts_.config, words_for(slot, woken, store, medium), parts_.bench, clock, history_, store));
         has_row = true;
         pair_at_us = told.pair_at_us;
+        if (!told.stored)
+            cause_ = ShortText<159>{told.status.message()};
         tell(told, slot);
         return told.status;
     });
-    if (!has_row)
-        journal(Priority::kError, "%s", status.message());
     if (const Status off = parts_.cameras.off(); !off.ok())
         journal(Priority::kNotice, "%s", off.message());
     if (pair_at_us)
         parts_.time.pair_was_ready_after(*pair_at_us - began_us);
+    if (!has_row)
+        journal(Priority::kError, "%s", status.message());
     if (slot != nullptr) {
         taken_us_ = slot->due_us;
-        if (has_row && clock.trust != ClockTrust::kNotSet)
+        if (!has_row)
+            owe(slot->due_us + 1, status.message());
+        else if (clock.trust != ClockTrust::kNotSet)
             last_due_us_ = slot->due_us;
     }
     newest_us_ = clock.now_us;
     return status;
+}
+
+SnapshotWords Series::words_for(const Slot* slot, const Woken& woken, Store& store, Medium& medium) const
+{
+    SnapshotWords how = how_;
+    how.notes = {};
+    how.card = card_health(medium, store.catalogue(), rules_of(parts_.config.output).reserve_bytes);
+    how.notes.clock_shift_us = parts_.time.shift_us();
+    if (slot != nullptr) {
+        how.notes.due_us = slot->due_us;
+        how.notes.why = slot->why.view();
+        how.notes.woken = woken;
+        how.notes.begun_us = parts_.time.begin_us(slot->due_us);
+    }
+    return how;
 }
 
 Status Series::run(std::optional<std::int64_t> slots)
@@ -227,6 +267,8 @@ Status Series::run(std::optional<std::int64_t> slots)
         woken = {};
         const std::int64_t jumped_us = parts_.time.now(newest_us_).now_us - showed_us - (monotonic_us() - began_us);
         missed_why_ = jumped_us > kJumpUs ? kClockSet : kBusy;
+        if (!slots) // a later start may find what is missing now; a rehearsal goes on as it began
+            TRY(parts_.bench.status());
         if (slots && --*slots <= 0)
             return {};
     }

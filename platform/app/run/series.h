@@ -43,7 +43,8 @@ public:
     Status begin(const ShortText<159>& cause);
 
     /// Until somebody wants an end, or `slots` were taken. Failures are recorded, or told, and the next slot comes.
-    /// Fault::kConfig: the schedule names no slot.
+    /// Fault::kConfig: the schedule names no slot. Without `slots` also a fault of the bench ends it, after a slot that
+    /// was missed for it: whoever starts it again may find it mended.
     Status run(std::optional<std::int64_t> slots);
     /// The slot that is due now; if none is, a snapshot that nobody planned. Its status.
     Status once();
@@ -52,7 +53,10 @@ private:
     Status with_store(FunctionRef<Status(Store&, Medium&)> work);
     Plan plan(const ClockReading& clock, FunctionRef<bool(const Slot&)> missed) const;
     Plan catch_up(const ClockReading& clock);
-    Status file_missed(const ClockReading& clock, Plan& plan);
+    void owe(std::int64_t until_us, const char* why);
+    Status file_missed(Store& store, const ClockReading& clock, std::int64_t until_us);
+    Status file_one(Store& store, const ClockReading& clock, const Slot& slot, std::int64_t older);
+    SnapshotWords words_for(const Slot* slot, const Woken& woken, Store& store, Medium& medium) const;
     Status take(const Slot* slot, const Woken& woken);
     void tell(const SnapshotTold& told, const Slot* slot);
     Woken rest(const Slot& slot);
@@ -64,6 +68,8 @@ private:
     std::optional<std::int64_t> last_due_us_; ///< as PlanFacts has it
     std::optional<std::int64_t> taken_us_;    ///< as PlanFacts has it
     std::optional<std::int64_t> newest_us_;   ///< a time that is over
+    std::int64_t owed_until_us_ = 0;          ///< slots before that have no row though they should; 0: all have
+    ShortText<159> owed_why_;                 ///< what kept the first of them from it
     const char* missed_why_ = "";             ///< what came between, should a slot have been missed
 };
 

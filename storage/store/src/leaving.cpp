@@ -5,6 +5,7 @@
 #include "start_up.h"
 
 #include "dicot/base/utc_time.h"
+#include "dicot/os/stage_watch.h"
 
 #include <array>
 #include <cerrno>
@@ -100,6 +101,7 @@ Result<PruneReport> prune_folders(Medium& medium, Catalogue& catalogue, Prune pr
                 const SlotRow& row = batch.rows[i];
                 if (!leaves(row, pulled_only) || (pulled_only && !TRY(is_pulled(medium, catalogue, row))))
                     continue;
+                StageWatch::progress();
                 going(row);
                 if (!wish.dry_run && !TRY(move_aside(medium, catalogue, row)))
                     continue;

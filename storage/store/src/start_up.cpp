@@ -3,6 +3,7 @@
 #include "incoming.h"
 
 #include "dicot/os/shown_path.h"
+#include "dicot/os/stage_watch.h"
 
 #include <algorithm>
 #include <array>
@@ -137,6 +138,7 @@ Result<bool> add_rows(Medium& medium, Catalogue& catalogue, const ReadingDesk& d
     bool all = true;
     Status status;
     const Result<bool> walked = for_each_folder(medium, [&](const StorePath& folder, const SnapshotName& name) {
+        StageWatch::progress(); // thousands of folders take their time
         status = [&]() -> Status {
             highest = std::max(highest, name.sequence);
             std::optional<SlotRow> row = TRY(catalogue.find(name.sequence));

@@ -14,6 +14,7 @@ namespace dicot::app {
 namespace {
 
 constexpr std::int64_t kNearAlarmUs = 180'000'000; ///< a boot so near to the alarm is its work
+constexpr std::int64_t kGraceUs = 600'000'000;     ///< for who switched the board on, or started the service, to log in
 constexpr std::int64_t kFreshBootUs = 180'000'000;
 
 std::optional<RestMark> read_mark(const char* path) noexcept
@@ -103,6 +104,8 @@ Woken Rest::begun() noexcept
         if (by_alarm)
             tell(lead_.note(LeadPart::kBoot, std::max<std::int64_t>(0, now_us - mark->alarm_us)), woken);
     }
+    if (woken.reason != WakeReason::kAlarm)
+        on_until_us_ = up_us + kGraceUs;
     if (!same_boot || mark->alarm_us != 0)
         tell(write_mark(0, 0, 0), woken);
     return woken;
@@ -120,6 +123,8 @@ Between Rest::way_to(std::int64_t due_us) noexcept
     const std::int64_t least_us = rules_.between == Between::kOff
                                       ? std::max(rules_.least_rest_us, 2 * lead_.of(LeadPart::kBoot))
                                       : rules_.least_rest_us + lead_.of(LeadPart::kResume);
+    if (rules_.between == Between::kOff && board_.boottime_us() < on_until_us_)
+        return Between::kIdle;
     return pause_us >= least_us ? rules_.between : Between::kIdle;
 }
 
@@ -127,6 +132,11 @@ Woken Rest::until(const RestWish& wish, FunctionRef<bool()> step) noexcept
 {
     Woken woken;
     const Between way = way_to(wish.due_us);
+    const std::int64_t grace_us = on_until_us_ - board_.boottime_us();
+    if (rules_.between == Between::kOff && grace_us > 0 && board_.now_us() + grace_us < begin_us(wish.due_us)) {
+        idle(board_.now_us() + grace_us, step, woken); // and then it is asked again
+        return woken;
+    }
     Next next = Next::kIdle;
     if (way == Between::kSuspend)
         next = suspend(begin_us(wish.due_us), step, woken);

@@ -84,9 +84,10 @@ public:
     /// `way` is kOff if the board was off by its own wish; `trouble`: the mark could not be written.
     Woken begun() noexcept;
 
-    /// Rests until it is time to begin the slot, begin_us(), or until something else comes up. `step` is called each
-    /// `step_us` and after each signal: whether to go on. Where the board is powered off, it returns with kAsked alone,
-    /// as the system stops its services; or as idle, if nobody answers the request.
+    /// A start that is not the alarm's work is somebody's: for ten minutes after it the board is not powered off; such
+    /// a rest ends early, as kTime. Else: rests until it is time to begin the slot, begin_us(), or until something else
+    /// comes up. `step` is called each `step_us` and after each signal: whether to go on. Where the board is powered
+    /// off, it returns with kAsked alone, as the system stops its services; or as idle, if nobody answers the request.
     Woken until(const RestWish& wish, FunctionRef<bool()> step) noexcept;
 
     /// The way that a pause would go that begins now.
@@ -111,7 +112,8 @@ private:
     LeadTime& lead_;
     RestRules rules_;
     ShortText<255> mark_;
-    ShortText<255> told_; ///< the last trouble, so that it is told once
+    std::int64_t on_until_us_ = 0; ///< by boottime_us(): before that the board is not powered off
+    ShortText<255> told_;          ///< the last trouble, so that it is told once
 };
 
 } // namespace dicot::app
