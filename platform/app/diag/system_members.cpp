@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <utility>
@@ -84,6 +85,23 @@ std::string clock_text()
            "\n";
 }
 
+/// What the service said lately, as journald kept it.
+Result<std::string> service_log()
+{
+    FILE* const pipe = ::popen("journalctl --quiet --no-pager --output=short-iso --unit=dicot --lines=2000 2>&1", "r");
+    if (pipe == nullptr)
+        return failure(Fault::kOsError, "journalctl cannot be started: %s", std::strerror(errno));
+    std::string text;
+    char part[4096];
+    while (const std::size_t got = std::fread(part, 1, sizeof part, pipe))
+        if (text.size() < DiagMembers::kMostFile)
+            text.append(part, got);
+    if (::pclose(pipe) != 0 || text.empty())
+        return failure(Fault::kUnavailable, "journald has no lines of dicot for this user (group systemd-journal): %s",
+                       text.c_str());
+    return text;
+}
+
 std::string system_name()
 {
     ::utsname name{};
@@ -132,6 +150,9 @@ Status add_system(DiagMembers& members)
     TRY(members.put("system/temperatures.json", temperatures_text()));
     const std::string usb = usb_devices();
     TRY(usb.empty() ? members.missing("system/usb", "the system lists no USB device") : members.put("system/usb", usb));
+    const Result<std::string> log = service_log();
+    TRY(log.ok() ? members.put("system/journal", log.value())
+                 : members.missing("system/journal", log.status().message()));
     for (const char* unit : {"/lib/systemd/system/dicot.service", "/etc/systemd/system/dicot.service"})
         TRY(members.put_file(std::string("units") + unit, unit));
     return {};
