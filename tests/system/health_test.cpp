@@ -91,7 +91,7 @@ TEST_F(HealthCommand, MissesSinceTheNewestSnapshotAreFlagged)
     EXPECT_EQ(told["misses"]["reasons"][0]["count"], 3);
     const json& flags = told["flags"];
     ASSERT_FALSE(flags.empty());
-    EXPECT_EQ(flags.back()["id"], "cameras");
+    EXPECT_EQ(flags.back()["id"], "missed");
     EXPECT_THAT(flags.back()["cause"].get<std::string>(), HasSubstr("2 slots in a row were missed"));
 }
 
