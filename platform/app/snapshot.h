@@ -64,8 +64,8 @@ Result<SnapshotTold> take_snapshot(const Config& config, const SnapshotWords& wo
                                    HealthHistory& history, Store& store);
 
 /// Takes the next number for a slot that nobody could take, and commits the record of a miss, with `reason`. Nothing
-/// is judged. `begun`: the slot has its number, so its row will come, if not now then at the next start. Errors: those of
-/// Store::begin(), add() and commit().
+/// is judged. `begun`: the slot has its number, so its row will come, if not now then at the next start. Errors: those
+/// of Store::begin(), add() and commit().
 Status record_miss(const Config& config, const SnapshotWords& how, const Status& reason, const ClockReading& clock,
                    Store& store, bool& begun);
 

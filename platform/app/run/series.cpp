@@ -121,7 +121,9 @@ Status Series::file_missed(Store& store, const ClockReading& clock, std::int64_t
     SlotWalk walk(parts_.schedule, parts_.zone, *last_due_us_);
     for (std::int64_t i = 0; i < older; ++i)
         (void)walk.next();
-    for (std::int64_t i = older; i < count && goes_on(); ++i) {
+    for (std::int64_t i = older; i < count; ++i) {
+        if (!goes_on())
+            return failure(Fault::kTryAgain, "stopped on request; the next start goes on");
         TRY(file_one(store, clock, *walk.next(), older));
         older = 0;
     }
@@ -215,9 +217,11 @@ Status Series::take(const Slot* slot, const Woken& woken)
         journal(Priority::kError, "%s", status.message());
     if (slot != nullptr) {
         taken_us_ = slot->due_us;
-        if (!has_row)
+        if (!has_row) {
             owe(slot->due_us + 1, status.message());
-        else if (clock.trust != ClockTrust::kNotSet)
+            if (!last_due_us_ && clock.trust != ClockTrust::kNotSet)
+                last_due_us_ = slot->due_us - 1; // the series begins with it
+        } else if (clock.trust != ClockTrust::kNotSet)
             last_due_us_ = slot->due_us;
     }
     newest_us_ = clock.now_us;
