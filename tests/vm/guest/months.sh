@@ -2,8 +2,15 @@
 clouds=/var/lib/dicot/clouds
 day=$(date -u +%F)
 export clouds day
-# Programs start slowly under emulation; a look now and then is enough.
-usleep() { sleep 1; }
+# Programs start slowly under emulation: a look each second, and at the store each ten, for that is a program too.
+usleep() { sleep "${look_s:-1}"; }
+await_slot() { # seconds, command ...
+    look_s=10
+    await "$@"
+    came=$?
+    look_s=1
+    return $came
+}
 
 slots() { dicot list --store "$clouds" --json | grep '"sequence"'; }
 # A slot by its hour, as "10:40" of the day, or by day and hour; a line of JSON.

@@ -84,8 +84,8 @@ figure "exposure by systemd-analyze security: $(cat judge.log)"
 
 # --- three slots; what is seen here of one may be seen only when the board wakes for the next
 three_slots() {
-    await 1500 is_done 10:10 && first_rss=$(awk '/^VmRSS/ { print $2 }' "/proc/$(process)/status") &&
-        await 1500 is_done 10:20 && await 1500 is_done 10:30
+    await_slot 1500 is_done 10:10 && first_rss=$(awk '/^VmRSS/ { print $2 }' "/proc/$(process)/status") &&
+        await_slot 1500 is_done 10:20 && await_slot 1500 is_done 10:30
 }
 judge sleep.three_slots three_slots
 alarm_woke() {
@@ -117,13 +117,13 @@ figure "$(tr -s '\n\t ' ' ' <judge.log)"
 
 # --- kill -9 amid 10:40
 killed() {
-    amid_a_slot && kill -KILL "$(process)" && await 300 is_missed 10:40 'interrupted|stopped|stage'
+    amid_a_slot && kill -KILL "$(process)" && await_slot 300 is_missed 10:40 'interrupted|stopped|stage'
     slot 10:40
     is_missed 10:40 'interrupted|stopped|stage'
 }
 judge kill.row_with_reason killed
 judge kill.restarted eval 'is_up && [ "$(restarts)" = 1 ]'
-judge kill.next_slot await 1500 is_done 10:50
+judge kill.next_slot await_slot 1500 is_done 10:50
 
 # --- the program stands still amid 11:00
 bites() {
@@ -132,8 +132,8 @@ bites() {
 }
 gone() { [ ! -d "/proc/$1" ]; }
 judge watchdog.bites bites
-judge watchdog.row_with_reason await 300 is_missed 11:00 'interrupted|stopped|stage'
-judge watchdog.next_slot await 1500 is_done 11:10
+judge watchdog.row_with_reason await_slot 300 is_missed 11:00 'interrupted|stopped|stage'
+judge watchdog.next_slot await_slot 1500 is_done 11:10
 
 # --- the power goes amid 11:20
 judge cut.amid_a_slot amid_a_slot

@@ -5,8 +5,8 @@
 . /run/vm/months.sh
 
 judge cut.starts_by_itself await 120 is_up
-judge cut.row_with_reason await 120 is_missed 11:20 'interrupted|power|stopped'
-judge cut.late_slot await 300 is_done 11:40
+judge cut.row_with_reason await_slot 120 is_missed 11:20 'interrupted|power|stopped'
+judge cut.late_slot await_slot 300 is_done 11:40
 judge cut.passed_slot_has_row is_missed 11:30 'not running'
 judge cut.verified dicot verify --store "${clouds:?}"
 
@@ -14,10 +14,10 @@ judge cut.verified dicot verify --store "${clouds:?}"
 sed -i 's/^between = .*/between = "idle"/' /etc/dicot/dicot.toml
 systemctl restart dicot
 date -s '1970-01-01 00:05:00'
-goes_on_in_1970() { await 700 is_done 1970-01-01T00:10 && await 700 is_done 1970-01-01T00:20; }
+goes_on_in_1970() { await_slot 700 is_done 1970-01-01T00:10 && await_slot 700 is_done 1970-01-01T00:20; }
 judge clock.goes_on_in_1970 goes_on_in_1970
 judge clock.is_not_trusted eval 'slot 1970-01-01T00:10 | grep "not set" && slot 1970-01-01T00:20 | grep "not set"'
-judge clock.set_back eval 'hwclock --hctosys --utc && date && await 900 is_done 12:00'
+judge clock.set_back eval 'hwclock --hctosys --utc && date && await_slot 900 is_done 12:00'
 judge clock.passed_slot_has_row is_missed 11:50 'clock'
 
 # --- the board is powered off until 12:10

@@ -4,7 +4,7 @@
 
 # It stays on this time.
 systemctl mask --runtime --now dicot-power-off.path
-judge off.slot_is_done await 300 is_done 12:10
+judge off.slot_is_done await_slot 300 is_done 12:10
 alarm_woke() {
     tr -d ' \n' <"$(record 12:10)" | grep -o '"woken":{[^}]*}' >woken
     cat woken
