@@ -2,19 +2,19 @@
 clouds=/var/lib/dicot/clouds
 day=$(date -u +%F)
 export clouds day
-# Programs start slowly under emulation: a look each second, and at the store each ten, for that is a program too.
-usleep() { sleep "${look_s:-1}"; }
-await_slot() { # seconds, command ...
-    look_s=10
-    await "$@"
-    came=$?
-    look_s=1
-    return $came
+# Programs start slowly under emulation: a look each second is enough, and for a slot first without a program of its own.
+usleep() { sleep 1; }
+await_slot() { # seconds, is_done or is_missed, hour, words of its reason
+    within_s=$1
+    shift
+    await "$within_s" has_record "$2" && "$@"
 }
 
 slots() { dicot list --store "$clouds" --json | grep '"sequence"'; }
 # A slot by its hour, as "10:40" of the day, or by day and hour; a line of JSON.
-slot() { case $1 in *T*) due=$1 ;; *) due=${day}T$1 ;; esac; slots | grep "\"due\": *\"$due:00Z\""; }
+due_of() { case $1 in *T*) echo "$1:00Z" ;; *) echo "${day}T$1:00Z" ;; esac; }
+slot() { slots | grep "\"due\": *\"$(due_of "$1")\""; }
+has_record() { grep -qrs --include=record.json "\"due\": \"$(due_of "$1")\"" "$clouds"/board/[12]*; }
 is_done() { slot "$1" | grep '"outcome": *"done"'; }
 is_missed() { # hour, words of its reason
     slot "$1" | grep '"outcome": *"missed"' | grep -E "\"reason\": *\"[^\"]*($2)"
