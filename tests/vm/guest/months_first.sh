@@ -135,7 +135,9 @@ judge watchdog.bites bites
 judge watchdog.row_with_reason await_slot 300 is_missed 11:00 'interrupted|stopped|stage'
 judge watchdog.next_slot await_slot 1500 is_done 11:10
 
-# --- the power goes amid 11:20
+# --- the power goes amid 11:20; the next start is to stay awake, to be seen
+sed -i 's/^between = .*/between = "idle"/' /etc/dicot/dicot.toml
+sync
 judge cut.amid_a_slot amid_a_slot
 slots >/out/slots
 sed 's/^/    /' /out/slots
