@@ -113,6 +113,16 @@ struct RunConfig
     int most_memory_mib = 0; ///< 0: no limit
 };
 
+/// The board as a device that a computer takes clouds from.
+struct UsbConfig
+{
+    bool export_store = false;     ///< by dicot run; key "export"
+    bool marks = true;             ///< a host that has verified a snapshot may mark it as pulled
+    std::string clock = "not set"; ///< when a host's time is taken: "never", "not set"
+    std::string serial;            ///< as the host sees it; empty: made of the board's machine-id
+    std::string udc;               ///< of /sys/class/udc; empty: the first one
+};
+
 /// Everything that a file may say, as its sections; what stands here is what holds without a file. Ranges and meanings:
 /// config_keys.h.
 struct Config
@@ -127,6 +137,7 @@ struct Config
     WatchdogConfig watchdog;
     RunConfig run;
     ScheduleConfig schedule;
+    UsbConfig usb;
 };
 
 /// A configuration, and where it comes from.

@@ -31,6 +31,7 @@ constexpr const char* kMethods[] = {"paper", "standard"};
 constexpr const char* kCosts[] = {"adcensus", "tad"};
 constexpr const char* kCpus[] = {"auto", "scalar", "avx2", "neon"};
 constexpr const char* kPrunes[] = {"never", "pulled", "all"};
+constexpr const char* kHostClocks[] = {"never", "not set"};
 constexpr const char* kBetweens[] = {"idle", "suspend", "off"};
 constexpr const char* kCamerasBetween[] = {"auto", "on", "port"};
 constexpr const char* kZones = R"("" (the system's), a name of the IANA database, or a rule as POSIX has it in TZ)";
@@ -162,6 +163,18 @@ const ConfigKey kKeys[] = {
      FlagKey{reach<bool, &Config::run, &RunConfig::lock_memory>()}},
     {"run", "most_memory_mib", "MiB", "Of memory that dicot run may take; more is refused at its start; 0: no limit",
      WholeKey{reach<int, &Config::run, &RunConfig::most_memory_mib>(), 0, kMostMemoryMib, {}}},
+
+    {"usb", "export", "", "A computer that is plugged into the board's USB device port may take clouds from it (MTP)",
+     FlagKey{reach<bool, &Config::usb, &UsbConfig::export_store>()}},
+    {"usb", "marks", "", "dicot pull may mark there what it has and has verified; nothing else can be written",
+     FlagKey{reach<bool, &Config::usb, &UsbConfig::marks>()}},
+    {"usb", "clock", "",
+     "When the time that dicot pull --set-clock offers is taken; not set: while the board knows none",
+     ChoiceKey{reach<std::string, &Config::usb, &UsbConfig::clock>(), kHostClocks}},
+    {"usb", "serial", "", "Serial number that the computer sees; \"\": made of the board's machine-id",
+     NameKey{reach<std::string, &Config::usb, &UsbConfig::serial>()}},
+    {"usb", "udc", "", "USB device controller, as /sys/class/udc names it; \"\": the first one",
+     NameKey{reach<std::string, &Config::usb, &UsbConfig::udc>()}},
 };
 
 } // namespace
