@@ -99,12 +99,14 @@ private:
     Status ask_well(const Request& request, Answer& answer);
     Status open_session();
     Status recover(const Status& why);
+    Status await_ready();
     Status learn();
     Status read_part(std::uint32_t handle, std::uint64_t offset, std::span<std::byte> into, std::size_t& got);
     Status read_stream(std::uint32_t handle, std::uint64_t bytes, std::uint64_t offset, std::span<std::byte> into);
+    Status try_stream(std::uint32_t handle, std::uint64_t bytes, std::uint64_t offset, std::span<std::byte> into);
+    Status take_stream(std::span<std::byte> into);
     Status begin_stream(std::uint32_t handle, std::uint64_t bytes);
     Status end_stream();
-    Status put_aside_stream();
     std::span<std::byte> table() const noexcept;
 
     /// A whole object on its way: the transaction stays open between two calls.
