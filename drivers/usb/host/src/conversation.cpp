@@ -1,8 +1,5 @@
 #include "conversation.h"
 
-#include "codes.h"
-#include "little_endian.h"
-
 #include "dicot/os/clock.h"
 
 #include <algorithm>
@@ -40,28 +37,22 @@ Status Conversation::command(std::uint16_t operation, std::span<const std::uint3
     next_ = next_ >= 0xFFFFFFFE ? 1 : next_ + 1; // 0 is OpenSession's, 0xFFFFFFFF none
     deadline_us_ = monotonic_us() + std::int64_t{patience_ms_} * 1000;
 
-    std::array<std::byte, kHeaderBytes + 4 * kMostParameters> bytes{};
-    LittleEndianWriter writer(bytes);
-    writer.put(static_cast<std::uint32_t>(kHeaderBytes + 4 * parameters.size()));
-    writer.put(static_cast<std::uint16_t>(code::kCommand));
-    writer.put(operation);
-    writer.put(transaction_);
-    for (const std::uint32_t parameter : parameters)
-        writer.put(parameter);
-    return pipe_.send(writer.written(), patience_ms_);
+    Block block{operation, transaction_};
+    block.parameter_count = std::min(parameters.size(), kMostParameters);
+    std::copy_n(parameters.begin(), block.parameter_count, block.parameters.begin());
+    std::array<std::byte, kMostBlockBytes> room;
+    const std::size_t bytes = write_block(ContainerType::kCommand, block, room);
+    return pipe_.send(std::span{room}.first(bytes), patience_ms_);
 }
 
 Status Conversation::give(std::span<const std::byte> payload)
 {
     if (payload.size() > room_bytes_ - kHeaderBytes)
         return failure(Fault::kSoftware, "%zu bytes are more than go to a device at once", payload.size());
-    LittleEndianWriter writer({room_.get(), room_bytes_});
-    writer.put(static_cast<std::uint32_t>(kHeaderBytes + payload.size()));
-    writer.put(static_cast<std::uint16_t>(code::kData));
-    writer.put(operation_);
-    writer.put(transaction_);
-    writer.put(payload);
-    return pipe_.send(writer.written(), patience_ms_);
+    const std::span room{room_.get(), kHeaderBytes + payload.size()};
+    write_header(data_header(operation_, transaction_, payload.size()), room.first<kHeaderBytes>());
+    std::ranges::copy(payload, room.begin() + kHeaderBytes);
+    return pipe_.send(room, patience_ms_);
 }
 
 Status Conversation::fill(std::size_t ask)
@@ -93,18 +84,15 @@ Result<std::uint64_t> Conversation::await_data(std::size_t expected, std::uint64
 {
     const std::size_t likely = std::min(expected, room_bytes_ - kHeaderBytes) + kHeaderBytes;
     TRY(fill_container(expected == 0 ? kUsualBytes : likely));
-    LittleEndian header(held());
-    const auto length = header.take<std::uint32_t>();
-    const auto kind = header.take<std::uint16_t>();
-    const auto operation = header.take<std::uint16_t>();
-    const auto transaction = header.take<std::uint32_t>();
-    if (kind == code::kResponse) {
+    const Header header = *read_header(held());
+    if (header.is(ContainerType::kResponse)) {
         TRY(read_response());
         return std::uint64_t{0};
     }
-    if (kind != code::kData || operation != operation_ || transaction != transaction_)
+    if (!header.is(ContainerType::kData) || header.code != operation_ || header.transaction != transaction_)
         return failure(Fault::kBadData, "the device answered operation %04X of transaction %u by kind %u, %04X of %u",
-                       operation_, transaction_, kind, operation, transaction);
+                       operation_, transaction_, header.type, header.code, header.transaction);
+    const std::uint32_t length = header.length;
     if (length < kHeaderBytes || length - kHeaderBytes > most)
         return failure(Fault::kBadData, "the device announced %u bytes where it may send %llu", length,
                        static_cast<unsigned long long>(most + kHeaderBytes));
@@ -141,17 +129,12 @@ Result<std::size_t> Conversation::take(std::span<std::byte> into)
 
 Status Conversation::read_response()
 {
-    LittleEndian bytes(held());
-    const auto length = bytes.take<std::uint32_t>();
-    const auto kind = bytes.take<std::uint16_t>();
-    const auto response = bytes.take<std::uint16_t>();
-    const auto transaction = bytes.take<std::uint32_t>();
-    if (length != held().size() || length > kHeaderBytes + 4 * kMostParameters || kind != code::kResponse ||
-        transaction != transaction_ || response == 0)
+    const std::optional<Block> block = read_block(ContainerType::kResponse, held());
+    if (!block || block->transaction != transaction_ || block->code == 0)
         return failure(Fault::kBadData, "the device ended transaction %u of operation %04X by nonsense", transaction_,
                        operation_);
     at_ = filled_;
-    response_ = response;
+    response_ = block->code;
     return {};
 }
 

@@ -1,6 +1,7 @@
 // Containers on a pipe: one transaction after the other, nothing believed.
 #pragma once
 
+#include "dicot/mtp/container.h"
 #include "dicot/mtp_host/usb_pipe.h"
 
 #include <array>
@@ -16,9 +17,6 @@ namespace dicot::mtp {
 class Conversation
 {
 public:
-    static constexpr std::size_t kHeaderBytes = 12;
-    static constexpr std::size_t kMostParameters = 5;
-
     Conversation(UsbPipe& pipe, std::size_t room_bytes, int patience_ms);
 
     /// The number of the transaction that is under way, or was.

@@ -1,9 +1,10 @@
 #include "dicot/mtp_host/initiator.h"
 
-#include "codes.h"
+#include "answers.h"
 #include "conversation.h"
-#include "datasets.h"
 #include "request.h"
+
+#include "dicot/mtp/codes.h"
 
 #include <algorithm>
 #include <array>
@@ -47,7 +48,7 @@ Status Initiator::say(const Request& request, Answer& answer)
         const std::uint64_t bytes = TRY(talk_->await_data(answer.expected, answer.into.size()));
         answer.got = TRY(talk_->take(answer.into.first(static_cast<std::size_t>(bytes))));
     }
-    answer.response = TRY(talk_->finish());
+    answer.response_code = TRY(talk_->finish());
     return {};
 }
 
@@ -56,9 +57,9 @@ Status Initiator::ask(const Request& request, Answer& answer)
     TRY(end_stream());
     for (;;) {
         Status said = say(request, answer);
-        if (said.ok() && answer.response == code::kSessionNotOpen)
+        if (said.ok() && answer.response_code == response::kSessionNotOpen)
             said = failure(Fault::kIoError, "the device forgot the session");
-        if (said.ok() && answer.response == code::kInvalidTransactionID)
+        if (said.ok() && answer.response_code == response::kInvalidTransactionId)
             said = failure(Fault::kBadData, "the device lost count of the transactions");
         if (said.ok()) {
             failures_ = 0;
@@ -71,7 +72,7 @@ Status Initiator::ask(const Request& request, Answer& answer)
 Status Initiator::ask_well(const Request& request, Answer& answer)
 {
     TRY(ask(request, answer));
-    return refusal(answer.response, request.operation);
+    return refusal(answer.response_code, request.operation);
 }
 
 Status Initiator::open()
@@ -88,14 +89,14 @@ Status Initiator::open_session()
     for (int round = 0; round < 2; ++round) {
         talk_->begin_session();
         Answer answer;
-        TRY(say({code::kOpenSession, {kSession}, 1, {}}, answer));
-        if (answer.response == code::kOk) {
+        TRY(say({operation::kOpenSession, {kSession}, 1, {}}, answer));
+        if (answer.response_code == response::kOk) {
             ++sessions_;
             return {};
         }
-        if (answer.response != code::kSessionAlreadyOpen)
-            return refusal(answer.response, code::kOpenSession);
-        TRY(say({code::kCloseSession, {}, 0, {}}, answer));
+        if (answer.response_code != response::kSessionAlreadyOpen)
+            return refusal(answer.response_code, operation::kOpenSession);
+        TRY(say({operation::kCloseSession, {}, 0, {}}, answer));
     }
     return failure(Fault::kIoError, "the device keeps a session that it does not close");
 }
@@ -104,7 +105,7 @@ void Initiator::close() noexcept
 {
     static_cast<void>(end_stream().ok());
     Answer answer;
-    static_cast<void>(say({code::kCloseSession, {}, 0, {}}, answer).ok());
+    static_cast<void>(say({operation::kCloseSession, {}, 0, {}}, answer).ok());
 }
 
 /// Until a session is open again.
@@ -138,7 +139,7 @@ Status Initiator::await_ready()
         const Result<std::uint16_t> status = pipe_.status();
         if (!status.ok() && status.status().fault() == Fault::kUnavailable)
             return status.status();
-        if (!status.ok() || status.value() == code::kOk)
+        if (!status.ok() || status.value() == response::kOk)
             break;
         ::poll(nullptr, 0, patience_.pause_ms);
     }
@@ -148,32 +149,32 @@ Status Initiator::await_ready()
 Status Initiator::learn()
 {
     Answer answer{table()};
-    TRY(ask_well({code::kGetDeviceInfo, {}, 0, {}}, answer));
-    return read_device_info(answer.bytes(), facts_) ? Status{} : nonsense(code::kGetDeviceInfo);
+    TRY(ask_well({operation::kGetDeviceInfo, {}, 0, {}}, answer));
+    return read_facts(answer.bytes(), facts_) ? Status{} : nonsense(operation::kGetDeviceInfo);
 }
 
 Status Initiator::storages(std::vector<std::uint32_t>& into)
 {
     Answer answer{table()};
-    TRY(ask_well({code::kGetStorageIDs, {}, 0, {}}, answer));
-    return read_words(answer.bytes(), kMostStorages, into) ? Status{} : nonsense(code::kGetStorageIDs);
+    TRY(ask_well({operation::kGetStorageIds, {}, 0, {}}, answer));
+    return read_numbers(answer.bytes(), kMostStorages, into) ? Status{} : nonsense(operation::kGetStorageIds);
 }
 
 Status Initiator::children(std::uint32_t storage, std::uint32_t parent, bool folders_alone,
                            std::vector<std::uint32_t>& into)
 {
-    const std::uint32_t folder = parent == 0 ? code::kAtTheTop : parent;
+    const std::uint32_t folder = parent == 0 ? kTop : parent;
     for (bool filter = folders_alone && filters_;; filter = false) {
-        const std::uint32_t format = filter ? code::kAssociation : 0;
+        const std::uint32_t format = filter ? format::kAssociation : 0;
         Answer answer{table()};
-        TRY(ask({code::kGetObjectHandles, {storage, format, folder}, 3, {}}, answer));
-        if (filter && answer.response != code::kOk) {
+        TRY(ask({operation::kGetObjectHandles, {storage, format, folder}, 3, {}}, answer));
+        if (filter && answer.response_code != response::kOk) {
             filters_ = false;
             continue;
         }
-        TRY(refusal(answer.response, code::kGetObjectHandles));
-        if (!read_words(answer.bytes(), kMostHandles, into))
-            return nonsense(code::kGetObjectHandles);
+        TRY(refusal(answer.response_code, operation::kGetObjectHandles));
+        if (!read_numbers(answer.bytes(), kMostHandles, into))
+            return nonsense(operation::kGetObjectHandles);
         if (filter && into.empty())
             continue; // it may be that it knows no folders by their format
         return {};
@@ -183,8 +184,8 @@ Status Initiator::children(std::uint32_t storage, std::uint32_t parent, bool fol
 Status Initiator::object(std::uint32_t handle, ObjectFacts& into)
 {
     Answer answer{table()};
-    TRY(ask_well({code::kGetObjectInfo, {handle}, 1, {}}, answer));
-    return read_object_info(answer.bytes(), into) ? Status{} : nonsense(code::kGetObjectInfo);
+    TRY(ask_well({operation::kGetObjectInfo, {handle}, 1, {}}, answer));
+    return read_facts(answer.bytes(), into) ? Status{} : nonsense(operation::kGetObjectInfo);
 }
 
 Result<std::size_t> Initiator::read(std::uint32_t handle, std::uint64_t bytes, std::uint64_t offset,
@@ -217,9 +218,9 @@ Status Initiator::read_part(std::uint32_t handle, std::uint64_t offset, std::spa
     const auto most = static_cast<std::uint32_t>(into.size());
     Answer answer{into, into.size()};
     if (facts_.partial_64)
-        TRY(ask_well({code::kGetPartialObject64, {handle, low, high, most}, 4, {}}, answer));
+        TRY(ask_well({operation::kGetPartialObject64, {handle, low, high, most}, 4, {}}, answer));
     else
-        TRY(ask_well({code::kGetPartialObject, {handle, low, most}, 3, {}}, answer));
+        TRY(ask_well({operation::kGetPartialObject, {handle, low, most}, 3, {}}, answer));
     got = answer.got;
     return {};
 }
@@ -232,8 +233,8 @@ Status Initiator::list_snapshots(std::int64_t first, std::vector<SnapshotNote>& 
     const auto number = static_cast<std::uint64_t>(first);
     const auto low = static_cast<std::uint32_t>(number);
     const auto high = static_cast<std::uint32_t>(number >> 32);
-    TRY(ask_well({code::kListSnapshots, {low, high, kMostNotes}, 3, {}}, answer));
-    return read_notes(answer.bytes(), first, into) ? Status{} : nonsense(code::kListSnapshots);
+    TRY(ask_well({operation::kListSnapshots, {low, high, kMostNotes}, 3, {}}, answer));
+    return read_notes(answer.bytes(), first, into) ? Status{} : nonsense(operation::kListSnapshots);
 }
 
 Status Initiator::mark_pulled(std::span<const PulledNote> pulled)
@@ -242,18 +243,26 @@ Status Initiator::mark_pulled(std::span<const PulledNote> pulled)
         return failure(Fault::kUsage, "the device takes no marks");
     if (pulled.size() > kMostMarks)
         return failure(Fault::kSoftware, "%zu marks are more than go to a device at once", pulled.size());
-    std::array<std::byte, 4 + 40 * kMostMarks> room;
+    std::array<std::byte, 4 + kPulledNoteBytes * kMostMarks> room;
+    SpanSink sink(room);
+    DataWriter out(sink);
+    out.u32(static_cast<std::uint32_t>(pulled.size()));
+    for (const PulledNote& note : pulled)
+        write(out, note);
     Answer answer;
-    return ask_well({code::kMarkPulled, {}, 0, write_marks(pulled, room)}, answer);
+    return ask_well({operation::kMarkPulled, {}, 0, sink.written()}, answer);
 }
 
 Status Initiator::offer_time(const TimeOffer& offer)
 {
     if (!facts_.takes_time)
         return failure(Fault::kUsage, "the device takes no time");
-    std::array<std::byte, 8> room;
+    std::array<std::byte, kTimeOfferBytes> room;
+    SpanSink sink(room);
+    DataWriter out(sink);
+    write(out, offer);
     Answer answer;
-    return ask_well({code::kOfferTime, {}, 0, write_time(offer, room)}, answer);
+    return ask_well({operation::kOfferTime, {}, 0, sink.written()}, answer);
 }
 
 } // namespace dicot::mtp

@@ -1,9 +1,9 @@
 #include "dicot/mtp_host/mtp_list.h"
 
-#include "little_endian.h"
 #include "usb_files.h"
 
 #include "dicot/base/printable.h"
+#include "dicot/mtp/data_reader.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -105,9 +105,9 @@ bool look_at(const char* folder, const std::string& port, std::span<std::byte> r
         !find_mtp_interface(descriptors, static_cast<std::uint8_t>(configuration), is_called_mtp_in_files, &asker,
                             listed))
         return false;
-    LittleEndian device(descriptors.subspan(8));
-    listed.vendor_id = device.take<std::uint16_t>();
-    listed.product_id = device.take<std::uint16_t>();
+    DataReader device(descriptors.subspan(8));
+    listed.vendor_id = device.u16();
+    listed.product_id = device.u16();
     listed.port = std::string_view{port};
     listed.manufacturer = printable<63>(usb_line(folder, port, "manufacturer"));
     listed.product = printable<63>(usb_line(folder, port, "product"));

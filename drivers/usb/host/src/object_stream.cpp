@@ -1,7 +1,8 @@
 // Objects of devices that know no partial reads: one transaction that stays open while its bytes are wanted in order.
-#include "codes.h"
 #include "conversation.h"
 #include "request.h"
+
+#include "dicot/mtp/codes.h"
 
 #include <algorithm>
 
@@ -16,11 +17,11 @@ Status Initiator::begin_stream(std::uint32_t handle, std::uint64_t bytes)
 {
     TRY(end_stream());
     const std::uint32_t words[] = {handle};
-    TRY(talk_->command(code::kGetObject, words));
+    TRY(talk_->command(operation::kGetObject, words));
     const std::uint64_t announced = TRY(talk_->await_data(kPieceBytes, bytes));
     if (announced == 0) {
-        const std::uint16_t response = TRY(talk_->finish());
-        TRY(refusal(response, code::kGetObject));
+        const std::uint16_t answered = TRY(talk_->finish());
+        TRY(refusal(answered, operation::kGetObject));
     }
     if (announced != bytes)
         return failure(Fault::kBadData, "the device announced %llu bytes of a file of %llu",
@@ -35,9 +36,9 @@ Status Initiator::take_stream(std::span<std::byte> into)
     if (stream_.at < stream_.bytes)
         return {};
     stream_ = {};
-    const std::uint16_t response = TRY(talk_->finish());
-    if (response != code::kOk)
-        return failure(Fault::kIoError, "the device says that reading failed (%04X)", response);
+    const std::uint16_t answered = TRY(talk_->finish());
+    if (answered != response::kOk)
+        return failure(Fault::kIoError, "the device says that reading failed (%04X)", answered);
     return {};
 }
 

@@ -12,7 +12,7 @@ namespace dicot::mtp {
 struct Initiator::Request
 {
     std::uint16_t operation = 0;
-    std::array<std::uint32_t, Conversation::kMostParameters> words{};
+    std::array<std::uint32_t, kMostParameters> words{};
     std::size_t count = 0;
     std::span<const std::byte> data; ///< to the device
 
@@ -24,12 +24,12 @@ struct Initiator::Answer
     std::span<std::byte> into; ///< room for data; none: no data phase is waited for
     std::size_t expected = 0;  ///< how much it will probably be
     std::size_t got = 0;
-    std::uint16_t response = 0;
+    std::uint16_t response_code = 0;
 
     std::span<const std::byte> bytes() const noexcept { return into.first(got); }
 };
 
 /// What a response code means to whoever asked; ok if it is OK.
-Status refusal(std::uint16_t response, std::uint16_t operation);
+Status refusal(std::uint16_t answered, std::uint16_t operation);
 
 } // namespace dicot::mtp

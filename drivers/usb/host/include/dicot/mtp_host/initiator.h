@@ -2,15 +2,13 @@
 #pragma once
 
 #include "dicot/base/function_ref.h"
-#include "dicot/mtp/snapshot_note.h"
+#include "dicot/mtp/snapshot_bytes.h"
 #include "dicot/mtp_host/usb_pipe.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace dicot::mtp {
@@ -31,7 +29,7 @@ struct ObjectFacts
     std::uint32_t parent = 0;
     bool folder = false;
     std::uint64_t bytes = 0; ///< of a file; kTooLarge: 4 GiB or more
-    std::string name;        ///< UTF-8 as it came, 255 UTF-16 units at most: not checked
+    ShortText<255> name;     ///< UTF-8, cut; as it came: not checked
 };
 
 /// One conversation. The device is hostile: whatever it sends, every call ends, in memory that is stated here. A
@@ -47,7 +45,7 @@ public:
     static constexpr std::size_t kMostHandles = std::size_t{1} << 18; ///< in one folder
     static constexpr std::size_t kMostStorages = 16;
     static constexpr std::size_t kMostNotes = 1024; ///< snapshots asked for at once
-    static constexpr std::size_t kMostMarks = 512;
+    static constexpr std::size_t kMostMarks = kMostPulledNotes;
     static constexpr std::uint64_t kTooLarge = 0xFFFFFFFF;
     static constexpr int kPatienceMs = 60'000; ///< without a byte
     static constexpr int kMostRecoveries = 3;
