@@ -175,6 +175,10 @@ Status Initiator::children(std::uint32_t storage, std::uint32_t parent, bool fol
         TRY(refusal(answer.response_code, operation::kGetObjectHandles));
         if (!read_numbers(answer.bytes(), kMostHandles, into))
             return nonsense(operation::kGetObjectHandles);
+        // No object stands in itself or twice, whatever the device says.
+        std::ranges::sort(into);
+        into.erase(std::ranges::unique(into).begin(), into.end());
+        std::erase_if(into, [&](std::uint32_t one) { return one == 0 || one == kTop || one == parent; });
         if (filter && into.empty())
             continue; // it may be that it knows no folders by their format
         return {};
