@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 
 #include <sys/eventfd.h>
 #include <sys/syscall.h>

@@ -5,94 +5,73 @@
 
 namespace dicot::gadget_parts {
 
-BulkIn::BulkIn(AioQueue& queue, int descriptor, std::span<std::byte> memory) noexcept
-    : queue_(queue), descriptor_(descriptor)
+bool BulkIn::Part::over() const noexcept
 {
-    const std::size_t each = memory.size() / kMost;
-    for (std::size_t i = 0; i < kMost; ++i)
-        buffers_[i].memory = memory.subspan(i * each, each);
+    return std::none_of(chunks.begin(), chunks.end(),
+                        [](const Chunk& each) { return each.transfer.under_way || !each.settled; });
 }
 
-bool BulkIn::take_next() noexcept
+bool BulkIn::has_room() const noexcept
 {
-    taken_ = taken_ || (!buffers_[next_].transfer.under_way && buffers_[next_].settled);
-    return taken_;
+    return parts_[next_].over();
 }
 
-void BulkIn::submit() noexcept
+void BulkIn::submit(Part& part, std::span<const std::byte> bytes) noexcept
 {
-    Buffer& buffer = buffers_[next_];
-    buffer.sent = filled_;
-    buffer.settled = false;
-    queue_.write(buffer.transfer, descriptor_, buffer.memory.first(filled_));
-    next_ = (next_ + 1) % kMost;
-    filled_ = 0;
-    taken_ = false;
+    Chunk& chunk = part.chunks[part.count++];
+    chunk.bytes = bytes.size();
+    chunk.settled = false;
+    queue_.write(chunk.transfer, descriptor_, bytes);
 }
 
-std::size_t BulkIn::add(std::span<const std::byte> bytes) noexcept
+void BulkIn::send(std::span<const std::byte> bytes, bool last, unsigned packet_bytes) noexcept
 {
-    std::size_t added = 0;
-    while (added < bytes.size() && take_next()) {
-        const std::span<std::byte> room = buffers_[next_].memory.subspan(filled_);
-        const std::size_t count = std::min(room.size(), bytes.size() - added);
-        std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(added), count, room.begin());
-        added += count;
-        filled_ += count;
-        if (count == room.size())
-            submit();
+    Part& part = parts_[next_];
+    next_ = (next_ + 1) % kParts;
+    part.count = 0;
+    const bool whole = bytes.size() % packet_bytes == 0;
+    while (!bytes.empty()) {
+        const std::size_t count = std::min(bytes.size(), kChunkBytes);
+        submit(part, bytes.first(count));
+        bytes = bytes.subspan(count);
     }
-    return added;
-}
-
-bool BulkIn::finish(unsigned packet_bytes) noexcept
-{
-    if (!empty_due_) {
-        const bool whole = filled_ % packet_bytes == 0;
-        if (filled_ > 0)
-            submit();
-        empty_due_ = whole;
-    }
-    if (!empty_due_)
-        return true;
-    if (!take_next())
-        return false;
-    submit();
-    empty_due_ = false;
-    return true;
+    if (last && whole)
+        submit(part, bytes);
 }
 
 bool BulkIn::settle() noexcept
 {
     bool any = false;
-    for (Buffer& buffer : buffers_) {
-        if (buffer.settled || buffer.transfer.under_way)
-            continue;
-        buffer.settled = any = true;
-        const std::int64_t result = buffer.transfer.result;
-        if (error_ == 0 && result != static_cast<std::int64_t>(buffer.sent))
-            error_ = result < 0 ? static_cast<int>(-result) : EIO;
-    }
+    for (Part& part : parts_)
+        for (Chunk& chunk : part.chunks) {
+            if (chunk.settled || chunk.transfer.under_way)
+                continue;
+            chunk.settled = any = true;
+            const std::int64_t result = chunk.transfer.result;
+            if (error_ == 0 && result != static_cast<std::int64_t>(chunk.bytes))
+                error_ = result < 0 ? static_cast<int>(-result) : EIO;
+        }
     return any;
 }
 
 bool BulkIn::idle() const noexcept
 {
-    return std::none_of(buffers_.begin(), buffers_.end(), [](const Buffer& each) { return each.transfer.under_way; });
+    return std::all_of(parts_.begin(), parts_.end(), [](const Part& each) { return each.over(); });
 }
 
 void BulkIn::cancel() noexcept
 {
-    for (std::size_t back = 1; back <= kMost; ++back)
-        queue_.cancel(buffers_[(next_ + kMost - back) % kMost].transfer);
+    for (std::size_t back = 1; back <= kParts; ++back) {
+        Part& part = parts_[(next_ + kParts - back) % kParts];
+        for (std::size_t i = part.count; i-- > 0;)
+            queue_.cancel(part.chunks[i].transfer);
+    }
 }
 
 void BulkIn::forget() noexcept
 {
-    for (Buffer& buffer : buffers_)
-        buffer.settled = true;
-    filled_ = 0;
-    taken_ = empty_due_ = false;
+    for (Part& part : parts_)
+        part.count = 0;
     error_ = 0;
 }
 

@@ -5,24 +5,24 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 
 namespace dicot::gadget_parts {
 
-/// Parts of any size become whole buffers: only the last one of a transfer may end within a packet, whatever the packets'
-/// size is at this speed. Buffers go one after the other, several of them at once.
+/// Two parts at once, in chunks that the kernel takes in one piece of memory each; the parts' own memory is lent to it.
 class BulkIn
 {
 public:
-    static constexpr std::size_t kMost = 8;
+    static constexpr std::size_t kParts = 2;
+    static constexpr std::size_t kChunkBytes = 32768; ///< larger ones a kernel with little memory may refuse
+    static constexpr std::size_t kChunks = 8;         ///< of one part
+    static constexpr std::size_t kMostUnderWay = kParts * (kChunks + 1);
 
-    BulkIn(AioQueue& queue, int descriptor, std::span<std::byte> memory) noexcept; ///< kMost equal buffers
+    BulkIn(AioQueue& queue, int descriptor) noexcept : queue_(queue), descriptor_(descriptor) {}
 
-    /// As many bytes as there is room for now; 0: wait().
-    std::size_t add(std::span<const std::byte> bytes) noexcept;
-    /// The transfer ends here, with a short packet or an empty one. False: no room now, call again.
-    bool finish(unsigned packet_bytes) noexcept;
+    bool has_room() const noexcept; ///< for one part more
+    /// `last`: a short packet ends the transfer, or one of none. Else `bytes` must be whole packets.
+    void send(std::span<const std::byte> bytes, bool last, unsigned packet_bytes) noexcept;
 
     /// Looks at what has ended, after AioQueue::reap(). Whether something has.
     bool settle() noexcept;
@@ -30,26 +30,28 @@ public:
     bool idle() const noexcept;
     /// Asks that all ends, the newest first: so no gap can follow what the host still takes.
     void cancel() noexcept;
-    void forget() noexcept; ///< once idle: nothing is begun, nothing has failed
+    void forget() noexcept; ///< once idle: nothing has failed
 
 private:
-    struct Buffer
+    struct Chunk
     {
         Transfer transfer;
-        std::span<std::byte> memory;
-        std::size_t sent = 0;
+        std::size_t bytes = 0;
         bool settled = true;
     };
-    bool take_next() noexcept;
-    void submit() noexcept;
+    struct Part
+    {
+        std::array<Chunk, kChunks + 1> chunks; ///< the last one for the packet of none
+        std::size_t count = 0;
+
+        bool over() const noexcept;
+    };
+    void submit(Part& part, std::span<const std::byte> bytes) noexcept;
 
     AioQueue& queue_;
     int descriptor_;
-    std::array<Buffer, kMost> buffers_;
-    std::size_t next_ = 0;   ///< which one is filled now, or next
-    std::size_t filled_ = 0; ///< bytes of it
-    bool taken_ = false;     ///< it is ours to fill
-    bool empty_due_ = false; ///< all but the empty packet has gone
+    std::array<Part, kParts> parts_;
+    std::size_t next_ = 0;
     int error_ = 0;
 };
 

@@ -40,7 +40,7 @@ Status broken()
 
 } // namespace
 
-static_assert(FfsLink::kBuffers == BulkIn::kMost);
+static_assert(BulkIn::kParts == mtp::DeviceLink::kMostUnderWay);
 
 /// Members are let go from the last to the first: the thread, then what is under way, then the files.
 struct FfsLink::Parts
@@ -68,12 +68,12 @@ struct FfsLink::Parts
         if (wake.get() < 0)
             return failure(Fault::kOsError, "no eventfd (%s)", strerrordesc_np(errno));
         cable.wake = wake.get();
-        memory = TRY(MemoryBlock::map(kBuffers * kBufferBytes + kFromHostBytes + kEvents * kEventBytes, Pages::kResident));
+        memory = TRY(MemoryBlock::map(kFromHostBytes + kEvents * kEventBytes, Pages::kResident));
         endpoints = TRY(Endpoints::open(rules.mount));
-        TRY(queue.open(kBuffers + 1 + kEvents));
+        TRY(queue.open(BulkIn::kMostUnderWay + 1 + kEvents));
         const std::span<std::byte> all = memory.bytes();
-        to_host.emplace(queue, endpoints.to_host.get(), all.first(kBuffers * kBufferBytes));
-        from_host.emplace(queue, endpoints.from_host.get(), all.subspan(kBuffers * kBufferBytes, kFromHostBytes));
+        to_host.emplace(queue, endpoints.to_host.get());
+        from_host.emplace(queue, endpoints.from_host.get(), all.first(kFromHostBytes));
         event_memory = all.last(kEvents * kEventBytes);
         return thread.start(endpoints.control.get(), cable);
     }
@@ -288,20 +288,16 @@ Result<std::size_t> FfsLink::receive(std::span<std::byte> into, int patience_ms)
 Status FfsLink::send(std::span<const std::byte> bytes, bool last)
 {
     Parts& parts = *parts_;
+    if (bytes.size() > kMostPartBytes || (!last && bytes.size() % parts.packet_bytes != 0))
+        return failure(Fault::kSoftware, "a part of %zu bytes for the cable: whole packets, %zu at most", bytes.size(),
+                       kMostPartBytes);
     parts.settle();
     TRY(parts.look());
-    if (parts.to_host->error() != 0)
-        return parts.await_room();
     if (parts.to_host->idle())
         parts.moved_us = monotonic_us();
-    while (!bytes.empty()) {
-        const std::size_t added = parts.to_host->add(bytes);
-        bytes = bytes.subspan(added);
-        if (!bytes.empty())
-            TRY(parts.await_room());
-    }
-    while (last && !parts.to_host->finish(parts.packet_bytes))
+    while (parts.to_host->error() != 0 || !parts.to_host->has_room())
         TRY(parts.await_room());
+    parts.to_host->send(bytes, last, parts.packet_bytes);
     return {};
 }
 

@@ -29,15 +29,14 @@ struct CableCounts
     std::atomic<std::uint64_t> events_dropped{0};
 };
 
-/// Transfers are asynchronous (AIO): kBuffers of kBufferBytes are on their way to the host at once, and all waits are
-/// for an eventfd, so that nothing is stuck in the kernel. A thread of its own answers endpoint 0, whatever the
-/// responder is doing. All memory is taken by open(). Source: Linux, Documentation/usb/functionfs.rst; USB Still Image
+/// Transfers are asynchronous (AIO): two parts are on their way to the host at once, out of the caller's memory, and all
+/// waits are for an eventfd, so that nothing is stuck in the kernel. A thread of its own answers endpoint 0, whatever
+/// the responder is doing. All memory is taken by open(). Source: Linux, Documentation/usb/functionfs.rst; USB Still Image
 /// Capture Device Definition 1.0.
 class FfsLink final : public mtp::DeviceLink
 {
 public:
-    static constexpr int kBuffers = 8;
-    static constexpr std::size_t kBufferBytes = 32768; ///< the kernel takes as much again in one piece
+    static constexpr std::size_t kMostPartBytes = 262'144; ///< of one send()
     static constexpr int kEvents = 8;                  ///< on their way at once
 
     struct Rules
