@@ -90,12 +90,10 @@ void SnapshotShelf::snapshots(std::int64_t first_sequence, FunctionRef<bool(cons
             return;
 }
 
-std::optional<SnapshotName> SnapshotShelf::find(std::int64_t sequence) const noexcept
+std::optional<SnapshotName> SnapshotShelf::find(std::int64_t sequence)
 {
-    const ShelfEntry* const entry = index_.find(sequence);
-    if (entry == nullptr || entry->files == ShelfEntry::kDamaged)
-        return std::nullopt;
-    return entry->name();
+    ShelfEntry* const entry = index_.find(sequence);
+    return entry != nullptr && look_at(*entry) ? std::optional{entry->name()} : std::nullopt;
 }
 
 std::optional<std::int64_t> SnapshotShelf::latest_before(std::int64_t end_us) const noexcept
@@ -139,9 +137,9 @@ Result<const SnapshotFiles*> SnapshotShelf::files(std::int64_t sequence)
 Status SnapshotShelf::open_file(std::int64_t sequence, int member)
 {
     const SnapshotFiles* const known = TRY(files(sequence));
-    if (member < 0 || member > known->count)
+    const bool is_sums = member == kSumsMember;
+    if (!is_sums && (member < 0 || member >= known->count))
         return failure(Fault::kNoInput, "snapshot %" PRId64 " has no file %d", sequence, member);
-    const bool is_sums = member == known->count;
     const StoredFile file =
         is_sums ? StoredFile{kSums, known->sums_bytes} : known->all()[static_cast<std::size_t>(member)];
     char path[128];

@@ -65,6 +65,8 @@ public:
     /// listed, and nothing changed.
     Status refresh(FunctionRef<void(const Change&)> changed);
 
+    static constexpr int kSumsMember = -1; ///< of read(): SHA256SUMS
+
     /// What is there and not shown.
     struct Hidden
     {
@@ -83,14 +85,14 @@ public:
     /// gone, or not readable now. `files`: without SHA256SUMS.
     void snapshots_of_day(std::uint32_t day, FunctionRef<bool(const SnapshotName&, int files)> visit);
     void snapshots(std::int64_t first_sequence, FunctionRef<bool(const SnapshotName&, int files)> visit);
-    /// None: not shown.
-    std::optional<SnapshotName> find(std::int64_t sequence) const noexcept;
+    /// None: not shown. Looks at it if nobody has.
+    std::optional<SnapshotName> find(std::int64_t sequence);
     /// When the snapshot began that began last, of those that began before `end_us`.
     std::optional<std::int64_t> latest_before(std::int64_t end_us) const noexcept;
 
     /// Good until another snapshot is looked at. Fault::kNoInput: not there, or not any more, or damaged; kIoError.
     Result<const SnapshotFiles*> files(std::int64_t sequence);
-    /// From `offset` on, fewer bytes only at the end. `member`: of files(), or their count for SHA256SUMS. The file
+    /// From `offset` on, fewer bytes only at the end. `member`: of files(), or kSumsMember. The file
     /// stays open for the next read: a snapshot that is deleted meanwhile can be read to its file's end, until
     /// refresh() sees that it has gone. Faults as files().
     Status read(std::int64_t sequence, int member, std::uint64_t offset, std::span<std::byte> into, std::size_t& got);
