@@ -117,7 +117,8 @@ TEST_F(Opened, ADeviceThatCannotTellFoldersApartIsAskedForAll)
 TEST_F(Opened, AnObjectTellsNameSizeAndKind)
 {
     open();
-    // Storage, format, protection, size; the picture's seven; parent, association, its number, sequence; "a.b", no dates, no words.
+    // Storage, format, protection, size; the picture's seven; parent, association, its number, sequence; "a.b", no
+    // dates, no words.
     const std::string fields = "01000100 0030 0000 44332211 0000 00000000 00000000 00000000 00000000 00000000 00000000"
                                "07000000 0000 00000000 00000000 04 6100 2E00 6200 0000 00 00 00";
     pipe_.say(data(2, "0810", fields));
