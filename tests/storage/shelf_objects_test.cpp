@@ -231,7 +231,7 @@ TEST_F(Objects, AMarkIsWrittenByTheStoreAndStandsInItsFolder)
     close();
     ShelfObjects& objects = look();
     const auto before = notes();
-    const Status marked = objects.mark_pulled(std::vector{pulled(before[1])});
+    const Status marked = objects.mark_pulled(std::vector{pulled(before[1]), pulled(before[1])}); // twice
     ASSERT_TRUE(marked.ok()) << marked.message();
     EXPECT_EQ(notes()[0], before[0]);
     EXPECT_TRUE(notes()[1].pulled);
