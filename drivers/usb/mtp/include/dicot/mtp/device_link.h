@@ -26,10 +26,10 @@ public:
     /// nothing lost. Fault::kUnavailable: no host any more (unplugged, deconfigured, suspended for good), or
     /// an end was asked for; kIoError: the transfer was cancelled, or the host reset us (take_reset() tells).
     virtual Result<std::size_t> receive(std::span<std::byte> into, int patience_ms) = 0;
-    /// A part of what goes to the host; all parts but the last are a multiple of 512 bytes. `last` ends the transfer: with
-    /// a short packet, or with one of none where the whole transfer is a multiple of the packet size. May return before
-    /// the host has it all: the bytes stay as they are until kMostUnderWay more calls have returned. So a caller that
-    /// takes three pieces of memory in turn fills one while two are under way. Returns at once while fewer than
+    /// A part of what goes to the host; all parts but the last are a multiple of 512 bytes. `last` ends the transfer:
+    /// with a short packet, or with one of none where the whole transfer is a multiple of the packet size. May return
+    /// before the host has it all: the bytes stay as they are until kMostUnderWay more calls have returned. So a caller
+    /// that takes three pieces of memory in turn fills one while two are under way. Returns at once while fewer than
     /// kMostUnderWay are under way, also if the host does not read. Faults as of receive(); they may belong to an
     /// earlier call, and nothing is under way any more after one.
     virtual Status send(std::span<const std::byte> bytes, bool last) = 0;
