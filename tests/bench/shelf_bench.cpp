@@ -17,7 +17,7 @@ namespace dicot::bench {
 namespace {
 
 constexpr double kMiB = 1 << 20;
-constexpr double kMostRefreshMs = 20;
+constexpr double kMostRefreshMs = 50;
 constexpr double kMostGrowthMiB = 0.25;
 
 double ms_since(std::int64_t start_us)
