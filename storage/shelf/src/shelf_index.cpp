@@ -68,7 +68,8 @@ void ShelfIndex::end_day(std::uint32_t day, bool whole) noexcept
     }
     const auto came = [&](const ShelfEntry& entry) { return entry.day == day && entry.untold; };
     sorted_ -= static_cast<std::size_t>(std::ranges::count_if(entries(), came));
-    used_ -= std::ranges::remove_if(used(), came).size();
+    const std::span<ShelfEntry> all = used();
+    used_ = static_cast<std::size_t>(std::remove_if(all.begin(), all.end(), came) - all.begin());
 }
 
 void ShelfIndex::lose_day(std::uint32_t day) noexcept
