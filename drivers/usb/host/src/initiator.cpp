@@ -177,7 +177,7 @@ Status Initiator::children(std::uint32_t storage, std::uint32_t parent, bool fol
             return nonsense(operation::kGetObjectHandles);
         // No object stands in itself or twice, whatever the device says.
         std::ranges::sort(into);
-        into.erase(std::ranges::unique(into).begin(), into.end());
+        into.erase(std::unique(into.begin(), into.end()), into.end());
         std::erase_if(into, [&](std::uint32_t one) { return one == 0 || one == kTop || one == parent; });
         if (filter && into.empty())
             continue; // it may be that it knows no folders by their format
