@@ -81,6 +81,8 @@ void ShelfIndex::lose_day(std::uint32_t day) noexcept
 void ShelfIndex::tidy_up(FunctionRef<void(const ShelfEntry&, Left)> left) noexcept
 {
     const std::span<ShelfEntry> all = used();
+    if (used_ == sorted_ && std::ranges::none_of(all, &ShelfEntry::gone))
+        return;
     std::ranges::sort(all, {}, place_of);
     std::size_t kept = 0;
     for (const ShelfEntry& entry : all) {
