@@ -174,5 +174,23 @@ TEST_F(Objects, AHostsTimeIsRefusedByABoardWhoseClockIsSet)
     EXPECT_FALSE(is_at("clock-offer"));
 }
 
+TEST_F(Objects, WhatIsNotShownIsToldWithItsReason)
+{
+    for (int k = 0; k < 4; ++k)
+        ASSERT_TRUE(store_one(open(), kNoon + k * kSecond).ok());
+    close();
+    EXPECT_EQ(app::hidden_words(look().hidden()).view(), "");
+    ShelfSettings few = settings();
+    few.limits.snapshots = 2;
+    fs::remove(at("2026-06-01/000004_20260601T120003Z/SHA256SUMS"));
+    ShelfObjects& objects = look(few);
+    EXPECT_EQ(notes().size(), 1U);
+    EXPECT_EQ(app::hidden_words(objects.hidden()).view(),
+              "not shown to computers: 1 damaged (dicot verify names them), 2 "
+              "older than what fits (pull, then prune)");
+    constexpr std::size_t kMany = 4'000'000'000;
+    EXPECT_EQ(app::hidden_words({kMany, kMany, kMany, kMany, kMany}).view().substr(0, 24), "not shown to computers: ");
+}
+
 } // namespace
 } // namespace dicot::test
