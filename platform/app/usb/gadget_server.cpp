@@ -1,5 +1,6 @@
 #include "gadget_server.h"
 
+#include "gadget_child.h"
 #include "gadget_root.h"
 #include "gadget_words.h"
 #include "server_page.h"
@@ -135,6 +136,7 @@ Status serve_store(const ServerWish& wish)
 {
     RunMemory::keep_address_space_known();
     const StopRequest stop;
+    live_with_parent();
     UsbGadget gadget(wish.places);
     const BoardStore store = board_store(wish);
     TRY(check_store(store));
