@@ -1,0 +1,1 @@
+#include "dicot/shelf/snapshot_shelf.h"
