@@ -29,7 +29,11 @@ public:
 
     Status start(std::string_view serial);
 
-    bool has(std::int64_t sequence) const override { return here_.contains(sequence); }
+    std::optional<std::int64_t> find(std::int64_t sequence) const override
+    {
+        const auto there = here_.find(sequence);
+        return there == here_.end() ? std::nullopt : std::optional{there->second};
+    }
     std::int64_t count() const override { return static_cast<std::int64_t>(here_.size()); }
     Result<Taken> take(PullSource& source, const OfferedSnapshot& offered, bool verify,
                        FunctionRef<bool(std::uint64_t)> arrived) override;
@@ -75,8 +79,9 @@ Result<Taken> judged(const Status& why)
 Status DiskArchive::start(std::string_view serial)
 {
     if (is_there(medium_, Store::kCatalogueName))
-        return failure(Fault::kUsage, "this is a board's own store, or a copy of one, and no archive: name another folder; "
-                                      "dicot pull --from takes its snapshots there");
+        return failure(Fault::kUsage,
+                       "this is a board's own store, or a copy of one, and no archive: name another folder; "
+                       "dicot pull --from takes its snapshots there");
     const Errno made = medium_.make_folder(kIncoming);
     if (made.number() != EEXIST)
         TRY(on_disk(made, kIncoming, "making a folder"));
@@ -88,7 +93,8 @@ Status DiskArchive::start(std::string_view serial)
     if (!listed.ok())
         return listed.status();
     if (!listed.value())
-        return failure(Fault::kIoError, "a day's folder cannot be listed: see what is wrong with this disk, then pull again");
+        return failure(Fault::kIoError,
+                       "a day's folder cannot be listed: see what is wrong with this disk, then pull again");
     return {};
 }
 
@@ -153,10 +159,11 @@ Result<std::optional<Taken>> DiskArchive::compare(PullSource& source, const Offe
         taken.how = same ? Took::kThere : Took::kConflict;
         taken.sums = digest_bytes(sums.value().sha256);
         if (!same)
-            taken.why = failure(Fault::kBadData,
-                                "%s: the source has another snapshot of this number; two boards of one name, or one that "
-                                "began anew: pull it into another archive",
-                                folder.c_str());
+            taken.why =
+                failure(Fault::kBadData,
+                        "%s: the source has another snapshot of this number; two boards of one name, or one that "
+                        "began anew: pull it into another archive",
+                        folder.c_str());
         return std::optional{taken};
     }
     TRY(this->put_aside(there));

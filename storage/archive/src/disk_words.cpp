@@ -44,10 +44,11 @@ Status has_room(Medium& medium, std::uint64_t wanted_bytes)
     MediumSpace space;
     if (!medium.space(space).ok() || wanted_bytes + kSpareBytes <= space.free_bytes || space.total_bytes == 0)
         return {};
-    return failure(Fault::kIoError,
-                   "this disk has %.1f MiB free, and the next snapshot takes %.1f MiB; make room, then pull again: what "
-                   "arrived stays",
-                   static_cast<double>(space.free_bytes) / kMiB, static_cast<double>(wanted_bytes) / kMiB);
+    return failure(
+        Fault::kIoError,
+        "this disk has %.1f MiB free, and the next snapshot takes %.1f MiB; make room, then pull again: what "
+        "arrived stays",
+        static_cast<double>(space.free_bytes) / kMiB, static_cast<double>(wanted_bytes) / kMiB);
 }
 
 } // namespace dicot

@@ -1,8 +1,8 @@
 // What a source offers of one snapshot, before a byte of it is taken: nobody else checks it.
 #pragma once
 
+#include "dicot/store/sums.h"
 #include "folder_name.h"
-#include "sums.h"
 
 #include "dicot/base/status.h"
 #include "dicot/pull_archive/pull_source.h"

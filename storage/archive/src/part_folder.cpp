@@ -131,8 +131,8 @@ PartOutcome PartFolder::read_on(PullSource& source, const OfferedFile& file, std
                                 Sha256Stream& hash, Arrived arrived)
 {
     while (from < file.bytes) {
-        const auto piece = piece_.first(
-            static_cast<std::size_t>(std::min<std::uint64_t>(piece_.size(), file.bytes - from)));
+        const auto piece =
+            piece_.first(static_cast<std::size_t>(std::min<std::uint64_t>(piece_.size(), file.bytes - from)));
         const Result<std::size_t> read = source.read(file, from, piece);
         if (!read.ok())
             return of_source(read.status());

@@ -32,7 +32,8 @@ public:
 
     const StorePath& path() const { return part_; }
 
-    /// Takes over all that `offer` names, beginning with what is there already. What is there is hashed, never believed.
+    /// Takes over all that `offer` names, beginning with what is there already. What is there is hashed, never
+    /// believed.
     PartOutcome fill(PullSource& source, const Offer& offer, Arrived arrived);
     /// All of it synced and renamed into its place.
     Status settle();

@@ -29,9 +29,9 @@ enum class Took
 struct Taken
 {
     Took how = Took::kUnreadable;
-    Status why;                                ///< of the last four: one sentence
-    std::array<std::byte, 32> sums{};          ///< of kNew and kThere: SHA-256 of SHA256SUMS
-    std::uint64_t bytes = 0;                   ///< of kNew: of all its files
+    Status why;                                 ///< of the last four: one sentence
+    std::array<std::byte, 32> sums{};           ///< of kNew and kThere: SHA-256 of SHA256SUMS
+    std::uint64_t bytes = 0;                    ///< of kNew: of all its files
     std::optional<std::int64_t> put_aside = {}; ///< a damaged one of this number went to quarantine/
 };
 
@@ -52,8 +52,8 @@ public:
     static Result<std::unique_ptr<BoardArchive>> open(Medium& medium, std::string_view serial);
     virtual ~BoardArchive() = default;
 
-    /// Whether a snapshot of this number is in its place.
-    virtual bool has(std::int64_t sequence) const = 0;
+    /// When the snapshot of this number that is in its place began; none: there is none.
+    virtual std::optional<std::int64_t> find(std::int64_t sequence) const = 0;
     virtual std::int64_t count() const = 0;
 
     /// Takes one over, resuming what an interruption left. `verify`: what is there is hashed before it is believed, and
