@@ -3,8 +3,6 @@
 
 #include "clock_offer.h"
 
-#include "../config/config.h"
-
 #include "dicot/mtp/object_source.h"
 #include "dicot/os/memory_block.h"
 #include "dicot/shelf/snapshot_shelf.h"
@@ -12,19 +10,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 
 namespace dicot::app {
 
-/// What ShelfObjects needs for good; all of it is mapped when it is made, but for the last two.
+/// What ShelfObjects takes, all of it in open(), but for `pages`.
 struct ShelfBudget
 {
-    std::size_t index = 0;     ///< 16 bytes a snapshot
-    std::size_t office = 0;    ///< what operator new takes while marks are written
-    std::size_t catalogue = 0; ///< SQLite's block: mapped
+    std::size_t index = 0;     ///< 16 bytes a snapshot; resident as it fills
+    std::size_t office = 0;    ///< for operator new while marks are written
+    std::size_t catalogue = 0; ///< SQLite's block, mapped
     std::size_t catalogue_resident = 0;
-    std::size_t pages = 0; ///< of MemoryBlock::map() while marks are written: for a MemoryReserve
+    std::size_t pages = 0; ///< of MemoryBlock::map() while marks are written: for the process's MemoryReserve
 
     std::size_t mapped() const { return index + office + catalogue + pages; }
     std::size_t resident() const { return index + office + catalogue_resident + pages; }
@@ -33,12 +30,14 @@ ShelfBudget shelf_budget(const SnapshotShelf::Limits& limits = {}) noexcept;
 
 struct ShelfSettings
 {
-    std::string path;   ///< folder of the board's snapshots (BoardStore::path)
-    std::string device; ///< its name, the folder at the top
-    OutputConfig output;
-    UsbConfig usb;
+    std::string path;                   ///< folder of the board's snapshots
+    std::string device;                 ///< the board's name: the folder at the top
+    StoreRules rules;                   ///< of output
+    bool marks = true;                  ///< usb.marks
+    std::string clock_rule = "not set"; ///< usb.clock
     SnapshotShelf::Limits limits{};
     std::string offer_file = kClockOfferFile;
+    std::int64_t clock_patience_us = 5'000'000; ///< for who sets the clock in our place
 };
 
 /// Handles are computed, and so mean the same for ever: 1 the board's folder; 0x80000000 + days since 1970 a day;
@@ -47,9 +46,8 @@ struct ShelfSettings
 class ShelfObjects final : public mtp::ObjectSource
 {
 public:
-    /// Before the heap is sealed. Reads all names; opens the store for writing once, where marks are allowed and nobody
-    /// else writes, so that what SQLite takes at its start is taken. Fault::kNoInput: there is no such folder;
-    /// kOsError: no memory; kIoError.
+    /// Before the heap is sealed: afterwards nothing is taken but `pages`. Reads all names. Fault::kNoInput: there is
+    /// no such folder; kOsError: no memory; kIoError.
     static Result<std::unique_ptr<ShelfObjects>> open(const ShelfSettings& settings);
 
     Result<mtp::Shelf> shelf() override;
@@ -62,14 +60,13 @@ public:
     Status mark_pulled(std::span<const mtp::PulledNote> pulled) override;
     Status offer_time(const mtp::TimeOffer& offer) override;
 
-    /// What is there but not shown.
+    /// What is there and not shown, for the log.
     const SnapshotShelf::Hidden& hidden() const noexcept { return shelf_.hidden(); }
 
 private:
     ShelfObjects(const ShelfSettings& settings, std::unique_ptr<Medium> medium, MemoryBlock index, MemoryBlock office);
 
     ShelfSettings settings_;
-    StoreRules rules_;
     std::unique_ptr<Medium> medium_;
     MemoryBlock index_, office_;
     SnapshotShelf shelf_;
