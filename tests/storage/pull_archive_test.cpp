@@ -269,8 +269,9 @@ TEST_F(PullArchive, puts_a_damaged_copy_aside_and_takes_it_anew)
     EXPECT_EQ(anew.value().put_aside, 1);
     EXPECT_TRUE(is_whole_copy(medium_, kFirstFolder, first()));
     EXPECT_EQ(names_in(medium_, "quarantine").size(), 1U);
-    ASSERT_TRUE(medium_.write_at(medium_.find_file((std::string{kFirstFolder} + "/SHA256SUMS").c_str()), 3,
-                                 std::as_bytes(std::span("#", 1)))
+    ASSERT_TRUE(medium_
+                    .write_at(medium_.find_file((std::string{kFirstFolder} + "/SHA256SUMS").c_str()), 3,
+                              std::as_bytes(std::span("#", 1)))
                     .ok());
     EXPECT_EQ(took(), Took::kNew) << "digests that cannot be read are believed by nobody";
     EXPECT_EQ(names_in(medium_, "quarantine").size(), 2U);

@@ -19,10 +19,7 @@ inline constexpr std::int64_t kNoon = 1'780'315'200'000'000; ///< 2026-06-01T12:
 inline constexpr const char* kFirstFolder = "2026-06-01/000001_20260601T120000Z";
 inline constexpr const char* kFirstPart = "incoming/000001_20260601T120000Z";
 
-inline bool goes_on(std::uint64_t)
-{
-    return true;
-}
+inline constexpr auto goes_on = [](std::uint64_t) { return true; };
 
 /// Opens the archive, takes the first snapshot of the source, lets the archive go.
 inline Result<Taken> take_first(Medium& medium, ScriptedSource& source, bool verify = false)
