@@ -122,7 +122,7 @@ Status print(const Words& words, const PullWishes& wishes, const std::vector<Pul
             failure(Fault::kUnavailable,
                     "nothing to pull: no device has a board's folder; is it the board's data cable, and usb.export "
                     "on?"));
-    if (StopRequest::asked())
+    if (StopRequest::asked() && worst.worst().ok())
         worst.add(failure(Fault::kTryAgain, "stopped; the next pull goes on there"));
     if (words.json) {
         nlohmann::json boards = nlohmann::json::array();
