@@ -111,6 +111,14 @@ Status Initiator::open()
 
 Status Initiator::open_session()
 {
+    talk_->be_patient(patience_.open_ms);
+    const Status opened = say_open_session();
+    talk_->be_patient(patience_.answer_ms);
+    return opened;
+}
+
+Status Initiator::say_open_session()
+{
     constexpr std::uint32_t kSession = 1;
     for (int round = 0; round < 2; ++round) {
         talk_->begin_session();
