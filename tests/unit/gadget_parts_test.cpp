@@ -178,7 +178,7 @@ TEST(StillImage, StallsWhatItDoesNotKnow)
 TEST(StillImage, TellsTheLastEventInFull)
 {
     StillImage image = configured();
-    constexpr Setup kEvent{0xa1, 0x65, 0, 0, 512};
+    constexpr dicot::gadget_parts::Setup kEvent{0xa1, 0x65, 0, 0, 512};
     EXPECT_EQ(image.asked(kEvent).kind, Ep0Answer::Kind::kStall);
     // ObjectAdded, transaction 5, one parameter.
     std::vector<std::byte> container(16);
