@@ -126,7 +126,7 @@ judge "the offer of a time is the one that the program makes" "$(grep -rqF "\"$o
 rule=$(grep -v '^#' "$root/lib/udev/rules.d/61-dicot-computer.rules")
 device=$checkout/drivers/usb/gadget/include/dicot/gadget/usb_gadget.h
 for word in kVendor:idVendor kProduct:idProduct kManufacturer:manufacturer; do
-    value=$(sed -n "s/.*${word%:*} = [0x\"]*\([a-z0-9]*\)\"*;.*/\1/p" "$device")
+    value=$(sed -n "s/.*${word%:*} = \(0x\|\"\)\([a-z0-9]*\)\"*;.*/\2/p" "$device")
     judge "the computer's rule is for our ${word#*:}" \
         "$([ -n "$value" ] && echo "$rule" | grep -qF "ATTR{${word#*:}}==\"$value\""; echo $?)"
 done

@@ -148,7 +148,7 @@ TEST(StillImage, TakesNoCancellationThatIsNone)
     EXPECT_FALSE(image.taken(kCancel, cancellation(0x4002, 7)));
     EXPECT_FALSE(image.taken(kCancel, std::span<const std::byte>{}));
     EXPECT_FALSE(image.interrupted());
-    Setup longer = kCancel;
+    auto longer = kCancel;
     longer.length = 7;
     EXPECT_EQ(image.asked(longer).kind, Ep0Answer::Kind::kStall);
 }
@@ -168,7 +168,8 @@ TEST(StillImage, StallsWhatItDoesNotKnow)
     const StillImage image = configured();
     for (int type = 0; type < 256; ++type)
         for (int request = 0; request < 256; ++request) {
-            const Setup setup{static_cast<std::uint8_t>(type), static_cast<std::uint8_t>(request), 0, 0, 512};
+            const dicot::gadget_parts::Setup setup{static_cast<std::uint8_t>(type), static_cast<std::uint8_t>(request),
+                                                   0, 0, 512};
             const bool known = type == 0xa1 && request == 0x67; // no event to tell; the others have other lengths
             EXPECT_EQ(image.asked(setup).kind == Ep0Answer::Kind::kStall, !known) << type << " " << request;
         }
@@ -177,7 +178,7 @@ TEST(StillImage, StallsWhatItDoesNotKnow)
 TEST(StillImage, TellsTheLastEventInFull)
 {
     StillImage image = configured();
-    constexpr Setup kEvent{0xa1, 0x65, 0, 0, 512};
+    constexpr dicot::gadget_parts::Setup kEvent{0xa1, 0x65, 0, 0, 512};
     EXPECT_EQ(image.asked(kEvent).kind, Ep0Answer::Kind::kStall);
     // ObjectAdded, transaction 5, one parameter.
     std::vector<std::byte> container(16);
