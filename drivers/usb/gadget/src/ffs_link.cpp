@@ -58,7 +58,6 @@ struct FfsLink::Parts
     std::span<std::byte> event_memory;
     std::uint32_t generation = 0; ///< the host's that we talk to
     unsigned packet_bytes = 512;
-    std::int64_t moved_us = 0; ///< when something last went or came
     ControlThread thread;
 
     explicit Parts(const Rules& given) noexcept : rules(given) {}
@@ -93,10 +92,8 @@ struct FfsLink::Parts
     void settle() noexcept
     {
         (void)queue.reap();
-        const bool went = to_host->settle();
-        const bool came = from_host->settle();
-        if (went || came)
-            moved_us = monotonic_us();
+        (void)to_host->settle();
+        (void)from_host->settle();
     }
 
     bool events_idle() const noexcept
@@ -159,12 +156,17 @@ struct FfsLink::Parts
         return interrupted ? broken() : Status{};
     }
 
-    /// A host that asks for something else while it takes nothing of what it asked for has given that up: killed, and
-    /// started again.
-    bool forgotten() const noexcept
+    /// A host that asks anew before it has taken all that it asked for has given that up: killed, and started again. At
+    /// once, for it reads next. What it took already cannot be cancelled, and is told late at most.
+    void end_forgotten() noexcept
     {
-        return from_host->waiting() && !to_host->idle() &&
-               monotonic_us() - moved_us > std::int64_t{rules.forgotten_ms} * 1000;
+        to_host->cancel();
+        const std::int64_t until_us = monotonic_us() + kMostCancelUs;
+        while (!to_host->idle() && monotonic_us() < until_us)
+            wait(until_us - monotonic_us());
+        if (to_host->error() != 0)
+            ++cable.counts.given_up;
+        (void)clear_to_host();
     }
 
     Status lost(int error) noexcept
@@ -185,14 +187,13 @@ struct FfsLink::Parts
             (void)clear_to_host();
             return lost(error);
         }
-        if (forgotten()) {
-            ++cable.counts.given_up;
-            (void)clear_to_host();
+        if (from_host->waiting()) {
+            end_forgotten();
             const std::lock_guard guard(cable.lock);
             cable.image.give_up();
             return broken();
         }
-        wait(from_host->waiting() ? std::int64_t{rules.forgotten_ms} * 250 : kSliceUs);
+        wait(kSliceUs);
         return {};
     }
 };
@@ -274,12 +275,8 @@ Result<std::size_t> FfsLink::receive(std::span<std::byte> into, int patience_ms)
                 return got;
             continue;
         }
-        if (parts.from_host->waiting()) { // first it takes what it asked for
-            if (parts.forgotten()) {
-                ++parts.cable.counts.given_up;
-                (void)parts.clear_to_host();
-            } else
-                parts.wait(std::int64_t{parts.rules.forgotten_ms} * 250);
+        if (parts.from_host->waiting()) {
+            parts.end_forgotten();
             continue;
         }
         parts.from_host->arm();
@@ -298,8 +295,6 @@ Status FfsLink::send(std::span<const std::byte> bytes, bool last)
                        kMostPartBytes);
     parts.settle();
     TRY(parts.look());
-    if (parts.to_host->idle())
-        parts.moved_us = monotonic_us();
     while (parts.to_host->error() != 0 || !parts.to_host->has_room())
         TRY(parts.await_room());
     parts.to_host->send(bytes, last, parts.packet_bytes);

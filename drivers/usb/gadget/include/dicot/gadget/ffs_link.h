@@ -43,7 +43,6 @@ public:
     {
         const char* mount = nullptr; ///< of FunctionFS
         FunctionRef<bool()> goes_on; ///< false: everything that waits ends. Asked each second and after each signal
-        int forgotten_ms = 500;      ///< a host that asks anew and takes nothing for so long has given its transfer up
     };
     /// Hands the kernel our descriptors; UsbGadget::bind() comes next. Fault::kUnavailable: not mounted, not this
     /// user's, another process serves; kOsError.
