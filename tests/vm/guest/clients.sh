@@ -10,6 +10,6 @@ mount -t sysfs sysfs /system/sys
 mount -t configfs configfs /system/sys/kernel/config
 mount -t tmpfs tmpfs /system/tmp
 mount -t tmpfs tmpfs /system/run
-export PAGER=cat LC_ALL=C.UTF-8
+export PAGER=cat LC_ALL=C
 unset LD_LIBRARY_PATH
 PATH=/vm/bin:/usr/sbin:/usr/bin chroot /system /bin/bash -c 'cd /tmp; . /vm/report.sh; . /vm/story' </dev/null
