@@ -163,6 +163,24 @@ Errno CrashMedium::list(const char* path, FunctionRef<bool(const MediumEntry&)> 
     return {};
 }
 
+Errno CrashMedium::stamp(const char* path, FolderStamp& stamp)
+{
+    if (const Errno error = strike(Touch::kRead); !error.ok())
+        return error;
+    const Place place = *path == '\0' ? Place{{}, -1, CardState::kRoot, {}} : place_of(path);
+    if (!place.error.ok() || place.node < 0)
+        return place.error.ok() ? ENOENT : place.error;
+    if (!node(place.node).folder)
+        return ENOTDIR;
+    // Each change of the log is a tick of the card's clock.
+    const auto names_it = [&](const Change& change) {
+        return (change.folder == place.node || change.to_folder == place.node) && !change.name.empty();
+    };
+    const auto last = std::find_if(log_.rbegin(), log_.rend(), names_it);
+    stamp = {static_cast<std::uint64_t>(place.node), log_.rend() - last, 0};
+    return {};
+}
+
 Errno CrashMedium::keep(int number, File& file)
 {
     for (std::size_t k = 0; k < files_.size(); ++k) {
@@ -211,9 +229,15 @@ Errno CrashMedium::read(File file, std::span<std::byte> into, std::size_t& got)
     OpenFile* open_file = opened(file);
     if (open_file == nullptr)
         return EBADF;
-    const Errno error = read_at(open_file->node, open_file->at, into, got);
+    const Errno error = read_node(open_file->node, open_file->at, into, got);
     open_file->at += got;
     return error;
+}
+
+Errno CrashMedium::read_at(File file, std::uint64_t offset, std::span<std::byte> into, std::size_t& got)
+{
+    const OpenFile* open_file = opened(file);
+    return open_file == nullptr ? Errno{EBADF} : read_node(open_file->node, offset, into, got);
 }
 
 Errno CrashMedium::close(File file)

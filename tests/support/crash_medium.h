@@ -44,10 +44,12 @@ public:
     Errno remove_folder(const char* path) override { return remove(path, true); }
     Errno kind_of(const char* path, EntryKind& kind) override;
     Errno list(const char* path, FunctionRef<bool(const MediumEntry&)> visit) override;
+    Errno stamp(const char* path, FolderStamp& stamp) override;
     Errno create(const char* path, File& file) override;
     Errno write(File file, std::span<const std::byte> bytes) override;
     Errno open(const char* path, File& file, std::uint64_t& size_bytes) override;
     Errno read(File file, std::span<std::byte> into, std::size_t& got) override;
+    Errno read_at(File file, std::uint64_t offset, std::span<std::byte> into, std::size_t& got) override;
     Errno close(File file) override;
     Errno sync_all() override;
     Errno sync_folder(const char* path) override;
@@ -64,7 +66,7 @@ public:
     Made make(const char* path, bool folder);
     int find_file(const char* path) const; ///< -1: none
     Errno write_at(int node, std::uint64_t offset, std::span<const std::byte> bytes);
-    Errno read_at(int node, std::uint64_t offset, std::span<std::byte> into, std::size_t& got);
+    Errno read_node(int node, std::uint64_t offset, std::span<std::byte> into, std::size_t& got);
     Errno truncate(int node, std::uint64_t size);
     Errno sync_file(int node);
     std::uint64_t size_of(int node) const { return now_.nodes[static_cast<std::size_t>(node)].bytes.size(); }

@@ -43,7 +43,7 @@ Errno CrashMedium::write_at(int number, std::uint64_t offset, std::span<const st
     return error;
 }
 
-Errno CrashMedium::read_at(int number, std::uint64_t offset, std::span<std::byte> into, std::size_t& got)
+Errno CrashMedium::read_node(int number, std::uint64_t offset, std::span<std::byte> into, std::size_t& got)
 {
     got = 0;
     if (const Errno error = strike(Touch::kRead); !error.ok())

@@ -59,7 +59,7 @@ int read_file(sqlite3_file* file, void* into, int size, sqlite3_int64 offset)
     Link& link = link_of(file);
     const std::span<std::byte> wanted{static_cast<std::byte*>(into), static_cast<std::size_t>(size)};
     std::size_t got = 0;
-    if (!link.medium->read_at(link.node, static_cast<std::uint64_t>(offset), wanted, got).ok())
+    if (!link.medium->read_node(link.node, static_cast<std::uint64_t>(offset), wanted, got).ok())
         return SQLITE_IOERR_READ;
     if (got == wanted.size())
         return SQLITE_OK;

@@ -20,6 +20,7 @@ public:
     {
         return card_.list(path, visit);
     }
+    Errno stamp(const char* path, FolderStamp& stamp) override { return card_.stamp(path, stamp); }
     Errno create(const char* path, File& file) override { return card_.create(path, file); }
     Errno write(File file, std::span<const std::byte> bytes) override { return card_.write(file, bytes); }
     Errno open(const char* path, File& file, std::uint64_t& size_bytes) override
@@ -27,6 +28,10 @@ public:
         return card_.open(path, file, size_bytes);
     }
     Errno read(File file, std::span<std::byte> into, std::size_t& got) override { return card_.read(file, into, got); }
+    Errno read_at(File file, std::uint64_t offset, std::span<std::byte> into, std::size_t& got) override
+    {
+        return card_.read_at(file, offset, into, got);
+    }
     Errno close(File file) override { return card_.close(file); }
     Errno sync_all() override { return card_.sync_all(); }
     Errno sync_folder(const char* path) override { return card_.sync_folder(path); }

@@ -1,5 +1,6 @@
 #include "dicot/medium/disk_medium.h"
 
+#include "folder_entries.h"
 #include "folder_walk.h"
 
 #include "dicot/os/shown_path.h"
@@ -8,9 +9,9 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <utility>
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -38,46 +39,6 @@ auto until_uninterrupted(Call&& call) noexcept
     return result;
 }
 
-EntryKind kind_of_mode(mode_t mode) noexcept
-{
-    return S_ISREG(mode) ? EntryKind::kFile : S_ISDIR(mode) ? EntryKind::kFolder : EntryKind::kOther;
-}
-
-Errno kind_at(int folder, const char* name, EntryKind& kind) noexcept
-{
-    struct stat what
-    {
-    };
-    if (::fstatat(folder, name, &what, AT_SYMLINK_NOFOLLOW) != 0)
-        return errno;
-    kind = kind_of_mode(what.st_mode);
-    return {};
-}
-
-/// The names in `entries`, `size` bytes as getdents64() gives them. False: the visitor has seen enough.
-bool visit_entries(int folder, const char* entries, std::size_t size, FunctionRef<bool(const MediumEntry&)> visit,
-                   Errno& error)
-{
-    for (std::size_t at = 0; at < size;) {
-        struct dirent64 entry
-        {
-        };
-        std::memcpy(&entry, entries + at, offsetof(struct dirent64, d_name));
-        const char* name = entries + at + offsetof(struct dirent64, d_name);
-        at += entry.d_reclen;
-        if (std::strcmp(name, ".") == 0 || std::strcmp(name, "..") == 0)
-            continue;
-        EntryKind kind = entry.d_type == DT_REG   ? EntryKind::kFile
-                         : entry.d_type == DT_DIR ? EntryKind::kFolder
-                                                  : EntryKind::kOther;
-        if (entry.d_type == DT_UNKNOWN)
-            error = kind_at(folder, name, kind);
-        if (!error.ok() || !visit({name, kind}))
-            return false;
-    }
-    return true;
-}
-
 class DiskMedium final : public Medium
 {
 public:
@@ -93,12 +54,17 @@ public:
     Errno remove_file(const char* path) override { return remove(path, 0); }
     Errno remove_folder(const char* path) override { return remove(path, AT_REMOVEDIR); }
     Errno kind_of(const char* path, EntryKind& kind) override;
-    Errno list(const char* path, FunctionRef<bool(const MediumEntry&)> visit) override;
+    Errno list(const char* path, FunctionRef<bool(const MediumEntry&)> visit) override
+    {
+        return list_entries(root_.number(), path, visit);
+    }
+    Errno stamp(const char* path, FolderStamp& stamp) override;
 
     Errno create(const char* path, File& file) override;
     Errno write(File file, std::span<const std::byte> bytes) override;
     Errno open(const char* path, File& file, std::uint64_t& size_bytes) override;
     Errno read(File file, std::span<std::byte> into, std::size_t& got) override;
+    Errno read_at(File file, std::uint64_t offset, std::span<std::byte> into, std::size_t& got) override;
     Errno close(File file) override;
 
     Errno sync_all() override
@@ -161,20 +127,21 @@ Errno DiskMedium::kind_of(const char* path, EntryKind& kind)
     return found.ok() ? kind_at(place.folder.number(), place.name, kind) : found;
 }
 
-Errno DiskMedium::list(const char* path, FunctionRef<bool(const MediumEntry&)> visit)
+Errno DiskMedium::stamp(const char* path, FolderStamp& stamp)
 {
     Descriptor folder;
-    Errno error = open_folder(root_.number(), path, folder);
-    // opendir() would take memory from the heap.
-    char entries[4096];
-    bool more = error.ok();
-    while (more) {
-        const ssize_t size = ::getdents64(folder.number(), entries, sizeof entries);
-        if (size < 0)
-            return errno;
-        more = size > 0 && visit_entries(folder.number(), entries, static_cast<std::size_t>(size), visit, error);
-    }
-    return error;
+    if (const Errno error = open_folder(root_.number(), path, folder); !error.ok())
+        return error;
+    struct stat what
+    {
+    };
+    if (::fstat(folder.number(), &what) != 0)
+        return errno;
+    constexpr std::int64_t kSecondNs = 1'000'000'000;
+    stamp.id = what.st_ino;
+    stamp.changed_ns = std::int64_t{what.st_mtim.tv_sec} * kSecondNs + what.st_mtim.tv_nsec;
+    stamp.links = what.st_nlink;
+    return {};
 }
 
 Errno DiskMedium::keep(Descriptor opened, File& file) noexcept
@@ -246,6 +213,24 @@ Errno DiskMedium::read(File file, std::span<std::byte> into, std::size_t& got)
     while (got < into.size()) {
         const ssize_t more =
             until_uninterrupted([&] { return ::read(number_of(file), into.data() + got, into.size() - got); });
+        if (more < 0)
+            return errno;
+        if (more == 0)
+            break;
+        got += static_cast<std::size_t>(more);
+    }
+    return {};
+}
+
+Errno DiskMedium::read_at(File file, std::uint64_t offset, std::span<std::byte> into, std::size_t& got)
+{
+    got = 0;
+    while (got < into.size()) {
+        const std::uint64_t at = offset + got;
+        if (at > static_cast<std::uint64_t>(std::numeric_limits<off_t>::max()))
+            break; // behind every end
+        const ssize_t more = until_uninterrupted(
+            [&] { return ::pread(number_of(file), into.data() + got, into.size() - got, static_cast<off_t>(at)); });
         if (more < 0)
             return errno;
         if (more == 0)

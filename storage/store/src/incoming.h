@@ -2,8 +2,8 @@
 #pragma once
 
 #include "card.h"
+#include "dicot/store/sums.h"
 #include "folder_name.h"
-#include "sums.h"
 
 #include "dicot/base/function_ref.h"
 #include "dicot/store/store.h"

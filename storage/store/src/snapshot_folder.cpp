@@ -39,7 +39,8 @@ Result<ReadSums> read_sums(Medium& medium, const StorePath& folder)
     Result<Sums> sums = parse_sums(text_of(bytes));
     if (!sums.ok())
         return with_path(sums.status(), path);
-    return ReadSums{sums.value(), hex_of(sha256_of(bytes)).data(), bytes.size()};
+    const Sha256 digest = sha256_of(bytes);
+    return ReadSums{sums.value(), digest, hex_of(digest).data(), bytes.size()};
 }
 
 Result<RecordFacts> read_record_file(Medium& medium, const StorePath& folder, const ReadingDesk& desk)

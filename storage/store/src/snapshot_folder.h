@@ -2,13 +2,14 @@
 #pragma once
 
 #include "card.h"
+#include "dicot/store/sums.h"
 #include "folder_name.h"
-#include "sums.h"
 
 #include "dicot/catalogue/catalogue.h"
 #include "dicot/record/record.h"
 
 #include "dicot/os/memory_block.h"
+#include "dicot/os/sha256.h"
 
 #include <cstddef>
 #include <optional>
@@ -36,7 +37,8 @@ private:
 struct ReadSums
 {
     Sums sums;
-    ShortText<64> sha256;
+    Sha256 digest{};
+    ShortText<64> sha256; ///< the same, hexadecimal
     std::uint64_t bytes = 0;
 };
 

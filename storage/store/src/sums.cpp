@@ -1,4 +1,4 @@
-#include "sums.h"
+#include "dicot/store/sums.h"
 
 #include "folder_name.h"
 

@@ -41,6 +41,17 @@ struct MediumSpace
     std::uint64_t free_bytes = 0; ///< that this user may still write
 };
 
+/// Tells a folder from itself at another time: whether names came or went in it. Clocks are coarse, and are set: what
+/// changes within two seconds may look the same.
+struct FolderStamp
+{
+    std::uint64_t id = 0;        ///< of this folder, not of another one of its name
+    std::int64_t changed_ns = 0; ///< by the system's clock
+    std::uint64_t links = 0;     ///< on many file systems grows with the folders in it
+
+    friend bool operator==(const FolderStamp&, const FolderStamp&) = default;
+};
+
 /// Paths begin at the medium's root, parts joined by '/', "" being the root itself; a part is never empty, "." or "..",
 /// and no link is followed, so that nothing outside is reached: anything else is EINVAL, ELOOP or ENOTDIR. What is done
 /// lasts only after a sync: sync_all() for everything so far, sync_folder() for the names in one folder. Not for
@@ -60,12 +71,16 @@ public:
     virtual Errno kind_of(const char* path, EntryKind& kind) = 0; ///< ENOENT
     /// In any order, without "." and "..", until `visit` returns false. Nothing may be changed meanwhile.
     virtual Errno list(const char* path, FunctionRef<bool(const MediumEntry&)> visit) = 0;
+    /// Of a folder. FAT never changes that of its root.
+    virtual Errno stamp(const char* path, FolderStamp& stamp) = 0;
 
     virtual Errno create(const char* path, File& file) = 0;               ///< a new file for writing: EEXIST
     virtual Errno write(File file, std::span<const std::byte> bytes) = 0; ///< all of them, behind what is there
     virtual Errno open(const char* path, File& file, std::uint64_t& size_bytes) = 0; ///< for reading; files alone
     /// Fills `into` from where the last read ended; fewer bytes only at the end.
     virtual Errno read(File file, std::span<std::byte> into, std::size_t& got) = 0;
+    /// The same from `offset` on; read() goes on where it was.
+    virtual Errno read_at(File file, std::uint64_t offset, std::span<std::byte> into, std::size_t& got) = 0;
     virtual Errno close(File file) = 0;
 
     virtual Errno sync_all() = 0;

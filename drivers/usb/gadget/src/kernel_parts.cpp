@@ -1,0 +1,99 @@
+#include "kernel_parts.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include <spawn.h>
+#include <sys/mount.h>
+#include <sys/statfs.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace dicot::gadget_parts {
+namespace {
+
+constexpr unsigned long kFunctionFs = 0xa647361; // f_fs.c; linux/magic.h has it not
+
+bool is_folder(const std::string& path)
+{
+    std::error_code ignored;
+    return std::filesystem::is_directory(path, ignored);
+}
+
+/// Whether modprobe says that it is there now.
+bool load_module(const char* name)
+{
+    char program[] = "modprobe";
+    char quiet[] = "-q";
+    std::string module = name;
+    char* const words[] = {program, quiet, module.data(), nullptr};
+    char path[] = "PATH=/usr/sbin:/usr/bin:/sbin:/bin";
+    char* const environment[] = {path, nullptr};
+    for (const char* where : {"/sbin/modprobe", "/usr/sbin/modprobe", "/bin/modprobe"}) {
+        pid_t child = 0;
+        if (::posix_spawn(&child, where, nullptr, nullptr, words, environment) != 0)
+            continue;
+        int ended = 0;
+        while (::waitpid(child, &ended, 0) < 0 && errno == EINTR) {
+        }
+        return WIFEXITED(ended) && WEXITSTATUS(ended) == 0;
+    }
+    return false;
+}
+
+} // namespace
+
+Status provide_configfs(const std::string& config)
+{
+    const std::string wanted = config + "/usb_gadget";
+    if (is_folder(wanted))
+        return {};
+    if (::geteuid() != 0)
+        return failure(Fault::kUnavailable, "%s is not there, and only root can load what makes it: run as root",
+                       wanted.c_str());
+    (void)load_module("configfs");
+    if (!is_folder(config))
+        return failure(Fault::kUnavailable, "%s is not there: this kernel has no configfs (CONFIG_CONFIGFS_FS)",
+                       config.c_str());
+    (void)load_module("libcomposite");
+    if (!is_folder(wanted) && ::mount("configfs", config.c_str(), "configfs", 0, nullptr) != 0 && errno != EBUSY)
+        return failure(Fault::kOsError, "%s: configfs cannot be mounted (%s)", config.c_str(), strerrordesc_np(errno));
+    if (!is_folder(wanted))
+        return failure(Fault::kUnavailable,
+                       "%s is not there: this kernel has no libcomposite (CONFIG_USB_LIBCOMPOSITE, CONFIG_USB_CONFIGFS)",
+                       wanted.c_str());
+    return {};
+}
+
+bool is_functionfs(const std::string& folder)
+{
+    struct statfs told
+    {
+    };
+    return ::statfs(folder.c_str(), &told) == 0 && static_cast<unsigned long>(told.f_type) == kFunctionFs;
+}
+
+Status mount_functionfs(const std::string& name, const std::string& folder, uid_t user, gid_t group)
+{
+    TRY(unmount_functionfs(folder));
+    char options[128];
+    std::snprintf(options, sizeof options, "uid=%u,gid=%u,rmode=0550,fmode=0660", static_cast<unsigned>(user),
+                  static_cast<unsigned>(group));
+    if (::mount(name.c_str(), folder.c_str(), "functionfs", MS_NOSUID | MS_NODEV | MS_NOEXEC, options) == 0)
+        return {};
+    return failure(errno == EPERM ? Fault::kUnavailable : Fault::kOsError, "%s: FunctionFS cannot be mounted (%s)",
+                   folder.c_str(), errno == ENODEV ? "this kernel has none: CONFIG_USB_CONFIGFS_F_FS" : strerrordesc_np(errno));
+}
+
+Status unmount_functionfs(const std::string& folder)
+{
+    for (int i = 0; i < 8 && is_functionfs(folder); ++i)
+        if (::umount2(folder.c_str(), MNT_DETACH) != 0)
+            return failure(errno == EPERM ? Fault::kUnavailable : Fault::kOsError, "%s: cannot be unmounted (%s)",
+                           folder.c_str(), errno == EPERM ? "run as root" : strerrordesc_np(errno));
+    return {};
+}
+
+} // namespace dicot::gadget_parts
