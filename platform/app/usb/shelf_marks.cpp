@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <new>
+#include <utility>
 #include <vector>
 
 namespace dicot::app {
@@ -31,6 +32,10 @@ Status mark(const std::string& path, const StoreRules& rules, std::span<const mt
     pulls.reserve(pulled.size());
     for (const mtp::PulledNote& note : pulled)
         pulls.push_back(pull_of(note, now_us));
+    // A host may say it twice; the store writes one mark at a time for each.
+    const auto place = [](const Pull& pull) { return std::pair{pull.sequence, pull.sums.view()}; };
+    std::ranges::sort(pulls, {}, place);
+    pulls.erase(std::ranges::unique(pulls, {}, place).begin(), pulls.end());
     return store->mark_pulled(pulls);
 }
 

@@ -121,6 +121,7 @@ Result<const SnapshotFiles*> SnapshotShelf::files(std::int64_t sequence)
     forget_files();
     const Result<SnapshotFiles> read = files_of_snapshot(medium_, path_of(entry->name()).c_str());
     if (read.status().fault() == Fault::kBadData) {
+        entry->untold = entry->untold || entry->files == ShelfEntry::kNotCounted; // it was never shown
         entry->files = ShelfEntry::kDamaged;
         ++hidden_.damaged;
         if (ShelfDay* const day = find_day(entry->day); day != nullptr && day->snapshots > 0)
