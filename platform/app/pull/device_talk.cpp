@@ -31,6 +31,8 @@ Status DeviceTalk::for_each_in(std::uint32_t storage, std::uint32_t folder, bool
         return failure(Fault::kBadData, "%s: a folder of the device holds %zu objects where at most %zu belong",
                        where_.c_str(), handles.size(), most);
     for (const std::uint32_t handle : handles) {
+        if (++looks_ > kMostLooks)
+            return failure(Fault::kBadData, "%s: the device shows more than %zu objects", where_.c_str(), kMostLooks);
         mtp::ObjectFacts facts;
         const Status asked = initiator_.object(handle, facts);
         if (asked.fault() == Fault::kNoInput)
@@ -45,6 +47,7 @@ Status DeviceTalk::for_each_in(std::uint32_t storage, std::uint32_t folder, bool
 Status DeviceTalk::files_in(std::uint32_t storage, std::uint32_t folder, FunctionRef<bool(const OfferedFile&)> visit)
 {
     constexpr std::size_t kMostFiles = Store::kMaxFiles + 1; // SHA256SUMS too
+    begin_question();
     std::vector<OfferedFile> files;
     bool twice = false;
     TRY(for_each_in(storage, folder, false, kMostInSnapshot, [&](std::uint32_t handle, const mtp::ObjectFacts& facts) {

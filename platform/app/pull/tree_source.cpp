@@ -47,6 +47,7 @@ struct Day
 
 Status TreeSource::snapshots(std::int64_t first_sequence, FunctionRef<bool(const OfferedSnapshot&)> visit)
 {
+    talk_->begin_question();
     std::vector<Day> days;
     TRY(talk_->for_each_in(folder_.storage, folder_.handle, true, mtp::Initiator::kMostHandles,
                            [&](std::uint32_t handle, const mtp::ObjectFacts& facts) {
