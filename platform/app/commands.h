@@ -6,6 +6,7 @@
 namespace dicot::app {
 
 void add_aim(CLI::App& program, Command& chosen);
+void add_archive(CLI::App& program, Command& chosen);
 void add_bench(CLI::App& program, Command& chosen);
 void add_calibrate(CLI::App& program, Command& chosen);
 void add_capture(CLI::App& program, Command& chosen);
@@ -19,6 +20,7 @@ void add_probe(CLI::App& program, Command& chosen);
 void add_process(CLI::App& program, Command& chosen);
 void add_prune(CLI::App& program, Command& chosen);
 void add_rectify(CLI::App& program, Command& chosen);
+void add_pull(CLI::App& program, Command& chosen);
 void add_rig(CLI::App& program, Command& chosen);
 void add_export(CLI::App& program, Command& chosen);
 void add_info(CLI::App& program, Command& chosen);

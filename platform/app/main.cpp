@@ -59,6 +59,8 @@ int main(int argc, char** argv)
     app::add_show(program, chosen);
     app::add_verify(program, chosen);
     app::add_prune(program, chosen);
+    app::add_pull(program, chosen);
+    app::add_archive(program, chosen);
 
     try {
         program.parse(argc, argv);

@@ -46,6 +46,10 @@ public:
     Errno list(const char* path, FunctionRef<bool(const MediumEntry&)> visit) override;
     Errno stamp(const char* path, FolderStamp& stamp) override;
     Errno create(const char* path, File& file) override;
+    Errno append(const char* path, File& file, std::uint64_t& size_bytes) override
+    {
+        return open(path, file, size_bytes); // whoever writes, writes behind what is there
+    }
     Errno write(File file, std::span<const std::byte> bytes) override;
     Errno open(const char* path, File& file, std::uint64_t& size_bytes) override;
     Errno read(File file, std::span<std::byte> into, std::size_t& got) override;

@@ -22,6 +22,10 @@ public:
     }
     Errno stamp(const char* path, FolderStamp& stamp) override { return card_.stamp(path, stamp); }
     Errno create(const char* path, File& file) override { return card_.create(path, file); }
+    Errno append(const char* path, File& file, std::uint64_t& size_bytes) override
+    {
+        return card_.append(path, file, size_bytes);
+    }
     Errno write(File file, std::span<const std::byte> bytes) override { return card_.write(file, bytes); }
     Errno open(const char* path, File& file, std::uint64_t& size_bytes) override
     {

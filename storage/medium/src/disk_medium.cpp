@@ -61,8 +61,15 @@ public:
     Errno stamp(const char* path, FolderStamp& stamp) override;
 
     Errno create(const char* path, File& file) override;
+    Errno append(const char* path, File& file, std::uint64_t& size_bytes) override
+    {
+        return open_file(path, O_WRONLY | O_APPEND, file, size_bytes);
+    }
     Errno write(File file, std::span<const std::byte> bytes) override;
-    Errno open(const char* path, File& file, std::uint64_t& size_bytes) override;
+    Errno open(const char* path, File& file, std::uint64_t& size_bytes) override
+    {
+        return open_file(path, O_RDONLY, file, size_bytes);
+    }
     Errno read(File file, std::span<std::byte> into, std::size_t& got) override;
     Errno read_at(File file, std::uint64_t offset, std::span<std::byte> into, std::size_t& got) override;
     Errno close(File file) override;
@@ -81,6 +88,7 @@ private:
 
     Errno find(const char* path, Place& place) const noexcept { return find_place(root_.number(), path, place); }
     Errno remove(const char* path, int flags) const noexcept;
+    Errno open_file(const char* path, int access, File& file, std::uint64_t& size_bytes);
     Errno keep(Descriptor opened, File& file) noexcept;
     int number_of(File file) const noexcept;
 
@@ -185,7 +193,7 @@ Errno DiskMedium::write(File file, std::span<const std::byte> bytes)
     return {};
 }
 
-Errno DiskMedium::open(const char* path, File& file, std::uint64_t& size_bytes)
+Errno DiskMedium::open_file(const char* path, int access, File& file, std::uint64_t& size_bytes)
 {
     Place place;
     if (const Errno error = find(path, place); !error.ok())
@@ -196,8 +204,8 @@ Errno DiskMedium::open(const char* path, File& file, std::uint64_t& size_bytes)
         return error;
     if (kind != EntryKind::kFile)
         return kind == EntryKind::kFolder ? EISDIR : EINVAL;
-    constexpr int kFlags = O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
-    Descriptor opened{::openat(place.folder.number(), place.name, kFlags)};
+    const int flags = access | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
+    Descriptor opened{::openat(place.folder.number(), place.name, flags)};
     struct stat what
     {
     };

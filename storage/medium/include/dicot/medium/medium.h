@@ -75,6 +75,8 @@ public:
     virtual Errno stamp(const char* path, FolderStamp& stamp) = 0;
 
     virtual Errno create(const char* path, File& file) = 0;               ///< a new file for writing: EEXIST
+    /// A file that is there, for writing behind its `size_bytes`; files alone. ENOENT
+    virtual Errno append(const char* path, File& file, std::uint64_t& size_bytes) = 0;
     virtual Errno write(File file, std::span<const std::byte> bytes) = 0; ///< all of them, behind what is there
     virtual Errno open(const char* path, File& file, std::uint64_t& size_bytes) = 0; ///< for reading; files alone
     /// Fills `into` from where the last read ended; fewer bytes only at the end.

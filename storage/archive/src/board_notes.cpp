@@ -1,0 +1,100 @@
+#include "board_notes.h"
+
+#include "disk_words.h"
+
+#include "card.h"
+
+#include "dicot/base/printable.h"
+#include "dicot/base/utc_time.h"
+
+#include <cerrno>
+#include <vector>
+
+namespace dicot {
+namespace {
+
+constexpr std::size_t kMostSerialBytes = 126;
+constexpr std::size_t kMostNoteBytes = std::size_t{1} << 20;
+constexpr std::string_view kBoardWord = "serial ";
+constexpr std::string_view kTimeWord = "pulled ";
+constexpr std::string_view kHadWord = "had ";
+
+std::string read_text(Medium& medium, const char* path)
+{
+    std::string text;
+    std::vector<std::byte> chunk(4096);
+    const Status read = read_file(medium, path, kMostNoteBytes, chunk, [&](std::span<const std::byte> bytes) {
+        text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    });
+    return read.ok() ? text : std::string{};
+}
+
+Status write_text(Medium& medium, const char* path, std::string_view text)
+{
+    const Errno removed = medium.remove_file(path);
+    if (removed.number() != ENOENT)
+        TRY(on_disk(removed, path, "removing it"));
+    Medium::File file = 0;
+    TRY(on_disk(medium.create(path, file), path, "making it"));
+    const Errno written = medium.write(file, std::as_bytes(std::span(text)));
+    const Errno closed = medium.close(file);
+    return on_disk(written.ok() ? closed : written, path, "writing");
+}
+
+/// What stands behind `word` on the first line of `text`, which is taken away.
+std::optional<std::string_view> take_line(std::string_view& text, std::string_view word)
+{
+    const std::size_t end = text.find('\n');
+    if (end == std::string_view::npos || !text.starts_with(word))
+        return {};
+    const std::string_view line = text.substr(word.size(), end - word.size());
+    text.remove_prefix(end + 1);
+    return line;
+}
+
+bool is_serial(std::string_view serial)
+{
+    return !serial.empty() && serial.size() <= kMostSerialBytes && is_printable(serial);
+}
+
+} // namespace
+
+std::string read_board(Medium& medium)
+{
+    const std::string text = read_text(medium, kBoardFile);
+    std::string_view rest = text;
+    const auto serial = take_line(rest, kBoardWord);
+    return serial && rest.empty() && is_serial(*serial) ? std::string{*serial} : std::string{};
+}
+
+Status write_board(Medium& medium, std::string_view serial)
+{
+    if (!is_serial(serial))
+        return failure(Fault::kBadData, "the board's serial number is no line of text");
+    TRY(write_text(medium, kBoardFile, std::string{kBoardWord} + std::string{serial} + "\n"));
+    return on_disk(medium.sync_all(), kBoardFile, "syncing");
+}
+
+std::optional<LastPull> read_last_pull(Medium& medium)
+{
+    const std::string text = read_text(medium, kLastPullFile);
+    std::string_view rest = text;
+    const auto time = take_line(rest, kTimeWord);
+    const auto had = time ? take_line(rest, kHadWord) : std::nullopt;
+    const auto pulled_us = time ? parse_utc_text(*time) : std::nullopt;
+    auto ranges = had ? NumberRanges::parse(*had) : std::nullopt;
+    if (!pulled_us || !ranges || !rest.empty())
+        return {};
+    return LastPull{*pulled_us, std::move(*ranges)};
+}
+
+Status write_last_pull(Medium& medium, const LastPull& pull)
+{
+    std::string text = std::string{kTimeWord} + utc_text(pull.pulled_us).c_str() + "\n";
+    text += std::string{kHadWord} + pull.had.text() + "\n";
+    if (text.size() > kMostNoteBytes) // a hostile list; what it explains is not worth more
+        return {};
+    return write_text(medium, kLastPullFile, text);
+}
+
+} // namespace dicot

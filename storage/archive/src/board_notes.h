@@ -1,0 +1,27 @@
+// Two small files of a board's folder: whose it is (BOARD), and what the source had at the last pull (LAST_PULL).
+#pragma once
+
+#include "dicot/base/status.h"
+#include "dicot/medium/medium.h"
+#include "dicot/pull_archive/board_archive.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace dicot {
+
+inline constexpr const char* kBoardFile = "BOARD";
+inline constexpr const char* kLastPullFile = "LAST_PULL";
+
+/// The board's serial number; empty: the file is missing, or cannot be read.
+std::string read_board(Medium& medium);
+/// Written once, synced. Fault::kBadData: no line of printable text of 126 bytes at most; kIoError.
+Status write_board(Medium& medium, std::string_view serial);
+
+/// None: missing or damaged.
+std::optional<LastPull> read_last_pull(Medium& medium);
+/// Instead of what is there. Not synced: it only helps to explain. Fault::kIoError.
+Status write_last_pull(Medium& medium, const LastPull& pull);
+
+} // namespace dicot
