@@ -13,6 +13,7 @@ void add_capture(CLI::App& program, Command& chosen);
 void add_config(CLI::App& program, Command& chosen);
 void add_diag(CLI::App& program, Command& chosen);
 void add_evaluate(CLI::App& program, Command& chosen);
+void add_gadget(CLI::App& program, Command& chosen);
 void add_health(CLI::App& program, Command& chosen);
 void add_list(CLI::App& program, Command& chosen);
 void add_match(CLI::App& program, Command& chosen);

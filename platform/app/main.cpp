@@ -53,6 +53,7 @@ int main(int argc, char** argv)
     app::add_run(program, chosen);
     app::add_schedule(program, chosen);
     app::add_snap(program, chosen);
+    app::add_gadget(program, chosen);
     app::add_list(program, chosen);
     app::add_health(program, chosen);
     app::add_diag(program, chosen);

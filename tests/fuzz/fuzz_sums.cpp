@@ -2,9 +2,9 @@
 // never a name that leads out of its folder.
 #include "folder_name.h"
 #include "pulled_mark.h"
-#include "sums.h"
 
 #include "dicot/base/utc_time.h"
+#include "dicot/store/sums.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -84,6 +84,57 @@ TEST(DiskMedium, keeps_what_is_written_and_reads_it_back_in_pieces)
     EXPECT_EQ(medium->close(file).number(), EBADF);
 }
 
+TEST(DiskMedium, reads_at_any_offset_beside_reading_on)
+{
+    TempFolder folder;
+    const auto medium = medium_of(folder);
+    ASSERT_EQ(write_file(*medium, "f", "hello, card").number(), 0);
+    Medium::File file = -1;
+    std::uint64_t size = 0;
+    ASSERT_EQ(medium->open("f", file, size).number(), 0);
+    std::array<std::byte, 4> piece{};
+    std::size_t got = 0;
+    const auto text = [&] { return std::string(reinterpret_cast<const char*>(piece.data()), got); };
+    ASSERT_EQ(medium->read(file, piece, got).number(), 0);
+    ASSERT_EQ(medium->read_at(file, 7, piece, got).number(), 0);
+    EXPECT_EQ(text(), "card");
+    ASSERT_EQ(medium->read_at(file, 9, piece, got).number(), 0);
+    EXPECT_EQ(text(), "rd");
+    for (const std::uint64_t behind : {std::uint64_t{11}, std::uint64_t{1} << 40, ~std::uint64_t{0}}) {
+        ASSERT_EQ(medium->read_at(file, behind, piece, got).number(), 0);
+        EXPECT_EQ(got, 0U);
+    }
+    ASSERT_EQ(medium->read(file, piece, got).number(), 0);
+    EXPECT_EQ(text(), "o, c") << "reading on";
+    EXPECT_EQ(medium->close(file).number(), 0);
+    EXPECT_EQ(medium->read_at(file, 0, piece, got).number(), EBADF);
+}
+
+TEST(DiskMedium, stamps_a_folder_anew_when_names_come_and_go_and_never_another_one_the_same)
+{
+    TempFolder folder;
+    const auto medium = medium_of(folder);
+    ASSERT_EQ(medium->make_folder("a").number(), 0);
+    ASSERT_EQ(medium->make_folder("b").number(), 0);
+    FolderStamp first, second;
+    ASSERT_EQ(medium->stamp("a", first).number(), 0);
+    ASSERT_EQ(medium->stamp("b", second).number(), 0);
+    EXPECT_NE(first.id, second.id);
+    ASSERT_EQ(medium->stamp("a", second).number(), 0);
+    EXPECT_EQ(first, second);
+    ASSERT_EQ(medium->make_folder("a/x").number(), 0);
+    ::usleep(50'000); // a tick of the kernel's clock
+    ASSERT_EQ(medium->rename("a/x", "b/x").number(), 0);
+    ASSERT_EQ(medium->stamp("a", second).number(), 0);
+    EXPECT_NE(first, second);
+    EXPECT_EQ(medium->stamp("", second).number(), 0);
+    EXPECT_EQ(medium->stamp("c", second).number(), ENOENT);
+    ASSERT_EQ(write_file(*medium, "f", "text").number(), 0);
+    EXPECT_EQ(medium->stamp("f", second).number(), ENOTDIR);
+    ASSERT_EQ(::symlink("a", folder.path("link").c_str()), 0);
+    EXPECT_NE(medium->stamp("link", second).number(), 0);
+}
+
 TEST(DiskMedium, creates_and_renames_without_ever_replacing)
 {
     TempFolder folder;

@@ -41,8 +41,9 @@ public:
     std::vector<mtp::TimeOffer> offered;
     Fault mark_fault = Fault::kOk, offer_fault = Fault::kOk;
     Fault read_fault = Fault::kOk;
-    std::uint64_t read_fault_at = 0; ///< from this byte on
-    std::uint64_t calls = 0;         ///< of all kinds
+    std::uint64_t read_fault_at = 0;     ///< from this byte on
+    std::uint64_t prune_at = UINT64_MAX; ///< a file is gone once somebody reads beyond this byte of it
+    std::uint64_t calls = 0;             ///< of all kinds
     int refreshed = 0;
 
     Result<mtp::Shelf> shelf() override
@@ -86,6 +87,10 @@ public:
             return failure(Fault::kNoInput, "no object %u", handle);
         if (read_fault != Fault::kOk && offset + into.size() > read_fault_at)
             return failure(read_fault, "as asked for");
+        if (offset + into.size() > prune_at) {
+            objects_.erase(found);
+            return failure(Fault::kNoInput, "no object %u", handle);
+        }
         const std::uint64_t left = offset < found->second.bytes ? found->second.bytes - offset : 0;
         got = static_cast<std::size_t>(std::min<std::uint64_t>(left, into.size()));
         for (std::size_t i = 0; i < got; ++i)

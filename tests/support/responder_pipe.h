@@ -8,6 +8,7 @@
 #include "dicot/mtp_host/usb_pipe.h"
 
 #include <deque>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -24,6 +25,8 @@ public:
     /// It does not say that it is a board of ours.
     bool disguised = false;
     int unplug_at_receive = -1; ///< 0: the next one
+    int break_at_receive = -1;  ///< the device halts its endpoint there, once
+    std::function<void()> when_reset = [] {};
 
     std::size_t packet_bytes() const override { return ScriptLink::kPacket; }
     Status send(std::span<const std::byte> bytes, int) override
@@ -37,6 +40,8 @@ public:
     {
         if (unplug_at_receive >= 0 && unplug_at_receive-- == 0)
             return failure(Fault::kUnavailable, "unplugged");
+        if (break_at_receive >= 0 && break_at_receive-- == 0)
+            return failure(Fault::kIoError, "halted");
         while (answers_.empty()) {
             if (link_.all_taken())
                 return failure(Fault::kTryAgain, "silence");
@@ -60,6 +65,7 @@ public:
     {
         answers_.clear();
         link_.reset();
+        when_reset();
         return {};
     }
     Result<std::uint16_t> status() override { return std::uint16_t{0x2001}; }

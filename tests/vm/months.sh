@@ -30,7 +30,7 @@ tell() { # story, time, words for run.sh
         --file tests/vm/guest/months.sh=/vm/months.sh --file "$package=/vm/dicot.deb" --file tests/vm/months/rig.yaml=/vm/rig.yaml \
         --file tests/vm/months/dicot.toml=/vm/dicot.toml --file tests/vm/months/sockets.pl=/vm/sockets.pl tests/vm/guest/system.sh
     sed -n 's/^#expect *//p' "tests/vm/guest/$story.sh" | tr -s ' ' '\n' >"$work/$story.cpio.expect"
-    sh tests/vm/run.sh "$work/$story.cpio" --timeout 500 --own-clock "$time" --disk "$work/disk.img" --out "$work/$story" "$@" ||
+    sh tests/vm/run.sh "$work/$story.cpio" --timeout 900 --own-clock "$time" --disk "$work/disk.img" --out "$work/$story" "$@" ||
         failed=1
 }
 tell months_first "${day}T10:00:00" --cut 'the power may go'

@@ -6,6 +6,11 @@
 #include "tree_source.h"
 
 namespace dicot::app {
+namespace {
+
+constexpr int kMostWalks = 2; ///< again
+
+} // namespace
 
 Result<PullSources> sources_behind(std::unique_ptr<mtp::UsbPipe> pipe, const mtp::MtpListed& listed,
                                    const mtp::Initiator::Patience& patience)
@@ -18,7 +23,11 @@ Result<PullSources> sources_behind(std::unique_ptr<mtp::UsbPipe> pipe, const mtp
         return sources;
     }
     std::vector<BoardFolder> folders;
-    TRY(find_boards(*talk, folders));
+    Status found = find_boards(*talk, folders);
+    // A session that broke meanwhile took the handles with it.
+    for (int round = 0; round < kMostWalks && found.fault() == Fault::kTryAgain; ++round)
+        found = find_boards(*talk, folders);
+    TRY(found);
     for (const BoardFolder& folder : folders)
         sources.push_back(open_tree(talk, folder));
     return sources;

@@ -5,6 +5,7 @@
 #include "dicot/base/utc_time.h"
 #include "dicot/store/snapshot_name.h"
 
+#include <algorithm>
 #include <deque>
 #include <unordered_set>
 
@@ -15,8 +16,21 @@ struct Folder
 {
     std::uint32_t handle = 0; ///< 0: the top of the storage
     std::size_t depth = 0;
-    ShortText<255> name;
+    std::string path; ///< names with '/' between them
+
+    std::string_view name() const { return std::string_view{path}.substr(path.rfind('/') + 1); }
 };
+
+struct Day
+{
+    std::uint32_t handle = 0;
+    ShortText<15> name;
+};
+
+std::string below(const std::string& path, std::string_view name)
+{
+    return path.empty() ? std::string{name} : path + "/" + std::string{name};
+}
 
 /// One storage, level by level.
 class Walk
@@ -30,7 +44,7 @@ public:
 
 private:
     Status look_into(const Folder& folder, std::vector<BoardFolder>& into);
-    Status holds_snapshots(std::uint32_t day, std::string_view name, bool& holds);
+    Status hold_snapshots(const std::vector<Day>& days, bool& hold);
 
     DeviceTalk& talk_;
     std::uint32_t storage_;
@@ -43,7 +57,7 @@ Status Walk::run(std::vector<BoardFolder>& into)
 {
     ahead_.push_back({});
     while (!ahead_.empty() && walked_ < kMostWalked) {
-        const Folder folder = ahead_.front();
+        const Folder folder = std::move(ahead_.front());
         ahead_.pop_front();
         ++walked_;
         TRY(look_into(folder, into));
@@ -54,41 +68,45 @@ Status Walk::run(std::vector<BoardFolder>& into)
 Status Walk::look_into(const Folder& folder, std::vector<BoardFolder>& into)
 {
     std::vector<Folder> folders;
-    Folder day;
-    const Status listed = talk_.for_each_in(storage_, folder.handle, true, mtp::Initiator::kMostHandles,
-                                            [&](std::uint32_t handle, const mtp::ObjectFacts& facts) {
-                                                const std::string_view name = facts.name.view();
-                                                const bool is_day = facts.folder && is_day_name(name);
-                                                if (is_day && folder.handle != 0)
-                                                    day = {handle, folder.depth + 1, facts.name};
-                                                else if (facts.folder && !is_day && !name.starts_with('.') &&
-                                                         folders.size() < kMostWalked)
-                                                    folders.push_back({handle, folder.depth + 1, facts.name});
-                                                return day.handle == 0;
-                                            });
+    std::vector<Day> days;
+    const auto sort_out = [&](std::uint32_t handle, const mtp::ObjectFacts& facts) {
+        const std::string_view name = facts.name.view();
+        if (!facts.folder || name.empty() || name[0] == '.' || name.find('/') != std::string_view::npos)
+            return true;
+        if (is_day_name(name))
+            days.push_back({handle, name});
+        else if (folders.size() < kMostWalked)
+            folders.push_back({handle, folder.depth + 1, below(folder.path, name)});
+        return true;
+    };
+    const Status listed = talk_.for_each_in(storage_, folder.handle, true, mtp::Initiator::kMostHandles, sort_out);
     if (listed.fault() == Fault::kNoInput)
         return {};
     TRY(listed);
-    if (day.handle != 0 && is_device_name(folder.name.view())) {
-        bool holds = false;
-        TRY(holds_snapshots(day.handle, day.name.view(), holds));
-        if (holds) {
-            into.push_back({storage_, folder.handle, std::string{folder.name.view()}});
-            return {};
-        }
+    bool holds = false;
+    if (is_device_name(folder.name()))
+        TRY(hold_snapshots(days, holds));
+    if (holds) {
+        into.push_back({storage_, folder.handle, std::string{folder.name()}, folder.path});
+        return {};
     }
-    for (const Folder& below : folders)
-        if (below.depth < kMostDepth && ahead_.size() < kMostWalked && seen_.insert(below.handle).second)
-            ahead_.push_back(below);
+    for (Folder& one : folders)
+        if (one.depth < kMostDepth && ahead_.size() < kMostWalked && seen_.insert(one.handle).second)
+            ahead_.push_back(std::move(one));
     return {};
 }
 
-Status Walk::holds_snapshots(std::uint32_t day, std::string_view name, bool& holds)
+Status Walk::hold_snapshots(const std::vector<Day>& days, bool& hold)
 {
-    return snapshots_of_day(talk_, storage_, day, name, [&](const OfferedSnapshot&) {
-        holds = true;
-        return false;
-    });
+    for (const Day& day : days) {
+        TRY(snapshots_of_day(talk_, storage_, day.handle, day.name.view(), [&](const OfferedSnapshot&) {
+            hold = true;
+            return false;
+        }));
+        if (hold)
+            break;
+    }
+    return {};
 }
 
 } // namespace
@@ -109,8 +127,31 @@ Status snapshots_of_day(DeviceTalk& talk, std::uint32_t storage, std::uint32_t d
                             });
 }
 
+Status find_folder(DeviceTalk& talk, std::uint32_t storage, std::string_view path, std::uint32_t& handle)
+{
+    handle = 0;
+    while (!path.empty()) {
+        const std::string_view name = path.substr(0, path.find('/'));
+        path.remove_prefix(std::min(path.size(), name.size() + 1));
+        std::uint32_t found = 0;
+        TRY(talk.for_each_in(storage, handle, true, mtp::Initiator::kMostHandles,
+                             [&](std::uint32_t one, const mtp::ObjectFacts& facts) {
+                                 if (facts.folder && facts.name.view() == name)
+                                     found = one;
+                                 return found == 0;
+                             }));
+        if (found == 0)
+            return failure(Fault::kNoInput, "%s: the device shows no folder %.*s any more", talk.where().data(),
+                           static_cast<int>(name.size()), name.data());
+        handle = found;
+    }
+    return {};
+}
+
 Status find_boards(DeviceTalk& talk, std::vector<BoardFolder>& into)
 {
+    into.clear();
+    talk.begin_question();
     std::vector<std::uint32_t> storages;
     TRY(talk.initiator().storages(storages));
     std::size_t walked = 0;

@@ -35,7 +35,8 @@ Status mark(const std::string& path, const StoreRules& rules, std::span<const mt
     // A host may say it twice; the store writes one mark at a time for each.
     const auto place = [](const Pull& pull) { return std::pair{pull.sequence, pull.sums.view()}; };
     std::ranges::sort(pulls, {}, place);
-    pulls.erase(std::ranges::unique(pulls, {}, place).begin(), pulls.end());
+    const auto same = [&](const Pull& a, const Pull& b) { return place(a) == place(b); };
+    pulls.erase(std::unique(pulls.begin(), pulls.end(), same), pulls.end());
     return store->mark_pulled(pulls);
 }
 

@@ -137,14 +137,21 @@ Errno DiskMedium::kind_of(const char* path, EntryKind& kind)
 
 Errno DiskMedium::stamp(const char* path, FolderStamp& stamp)
 {
-    Descriptor folder;
-    if (const Errno error = open_folder(root_.number(), path, folder); !error.ok())
-        return error;
     struct stat what
     {
     };
-    if (::fstat(folder.number(), &what) != 0)
-        return errno;
+    if (*path == '\0') {
+        if (::fstat(root_.number(), &what) != 0)
+            return errno;
+    } else {
+        Place place;
+        if (const Errno error = find(path, place); !error.ok())
+            return error;
+        if (::fstatat(place.folder.number(), place.name, &what, AT_SYMLINK_NOFOLLOW) != 0)
+            return errno;
+    }
+    if (!S_ISDIR(what.st_mode))
+        return ENOTDIR;
     constexpr std::int64_t kSecondNs = 1'000'000'000;
     stamp.id = what.st_ino;
     stamp.changed_ns = std::int64_t{what.st_mtim.tv_sec} * kSecondNs + what.st_mtim.tv_nsec;

@@ -74,7 +74,7 @@ Status SnapshotShelf::list_days(FunctionRef<void(const Change&)> changed)
         return {};
     for (ShelfDay& day : shelf_days())
         day.there = day.stamped_us >= 0;
-    day_count_ -= std::ranges::remove_if(shelf_days(), [](const ShelfDay& day) { return !day.there; }).size();
+    drop_days_not_there();
     return failure(Fault::kIoError, "the folder of the snapshots cannot be listed (%s)",
                    strerrordesc_np(listed.number()));
 }
@@ -104,6 +104,13 @@ void SnapshotShelf::take_day(std::uint32_t number, FunctionRef<void(const Change
     place->there = true;
     place->stamped_us = -1;
     ++day_count_;
+}
+
+void SnapshotShelf::drop_days_not_there() noexcept
+{
+    const std::span<ShelfDay> days = shelf_days();
+    const auto end = std::remove_if(days.begin(), days.end(), [](const ShelfDay& day) { return !day.there; });
+    day_count_ = static_cast<std::size_t>(end - days.begin());
 }
 
 void SnapshotShelf::look_into(ShelfDay& day, FunctionRef<void(const Change&)> changed)
@@ -205,7 +212,7 @@ void SnapshotShelf::tell_days_gone(FunctionRef<void(const Change&)> changed)
         changed(change_of(day, false));
         day.told = false;
     }
-    day_count_ -= std::ranges::remove_if(shelf_days(), [](const ShelfDay& day) { return !day.there; }).size();
+    drop_days_not_there();
 }
 
 void SnapshotShelf::tell_came(FunctionRef<void(const Change&)> changed)

@@ -68,7 +68,8 @@ void ShelfIndex::end_day(std::uint32_t day, bool whole) noexcept
     }
     const auto came = [&](const ShelfEntry& entry) { return entry.day == day && entry.untold; };
     sorted_ -= static_cast<std::size_t>(std::ranges::count_if(entries(), came));
-    used_ -= std::ranges::remove_if(used(), came).size();
+    const std::span<ShelfEntry> all = used();
+    used_ = static_cast<std::size_t>(std::remove_if(all.begin(), all.end(), came) - all.begin());
 }
 
 void ShelfIndex::lose_day(std::uint32_t day) noexcept
@@ -80,6 +81,8 @@ void ShelfIndex::lose_day(std::uint32_t day) noexcept
 void ShelfIndex::tidy_up(FunctionRef<void(const ShelfEntry&, Left)> left) noexcept
 {
     const std::span<ShelfEntry> all = used();
+    if (used_ == sorted_ && std::ranges::none_of(all, &ShelfEntry::gone))
+        return;
     std::ranges::sort(all, {}, place_of);
     std::size_t kept = 0;
     for (const ShelfEntry& entry : all) {

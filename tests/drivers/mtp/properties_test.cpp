@@ -115,6 +115,22 @@ TEST_F(MtpBoard, ListsEverythingAsLibmtpAsks)
     EXPECT_EQ(ask(0x9805, {0xFFFFFFFF, 0, 0xFFFFFFFF, 0, 0xFFFFFFFF}).data, expected.bytes());
 }
 
+TEST_F(MtpBoard, ListOfEverythingEndsWhereHostsWouldLosePatience)
+{
+    open();
+    for (std::uint32_t i = 6; i < 40'000; ++i)
+        shelf.file(0x1000 + i, kSnapshot, "f.bin", i, kNoonUs);
+    const Heard all = ask(0x9805, {0xFFFFFFFF, 0, 0xDC04, 0, 0xFFFFFFFF});
+    EXPECT_EQ(all.code, 0x2001);
+    EXPECT_EQ(number(all.data, 0, 4), 40'000u);
+    EXPECT_EQ(all.data.size(), 4u + 40'000 * 16);
+    shelf.file(0x1000, kSnapshot, "f.bin", 1, kNoonUs);
+    const Heard none = ask(0x9805, {0xFFFFFFFF, 0, 0xDC04, 0, 0xFFFFFFFF});
+    EXPECT_EQ(none.code, 0xA808);
+    EXPECT_FALSE(none.had_data);
+    EXPECT_EQ(ask(0x9805, {kSnapshot, 0, 0xDC04, 0, 1}).code, 0x2001) << "a folder is listed however much is in it";
+}
+
 TEST_F(MtpBoard, SaysWhichListsItDoesNotHave)
 {
     open();

@@ -40,6 +40,10 @@ inline std::string device_info(const std::string& count, const std::string& oper
            "02 4D00 0000  03 C400 3100 0000  00  02 5300 0000";
 }
 
+// "dicot.example: 1.0;" in UTF-16, with its count and end.
+inline constexpr const char* kOurs =
+    "14 640069006300 6F0074002E00 6500780061006D0070006C006500 3A00 2000 31002E003000 3B00 0000";
+
 // As fast as the script.
 inline constexpr mtp::Initiator::Patience kNoPatience{1000, 0, 0};
 

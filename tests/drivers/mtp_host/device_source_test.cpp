@@ -157,6 +157,15 @@ TEST_F(OnTheCable, OtherDevicesAreWalkedForFoldersOfTheLayout)
     EXPECT_EQ(board.offer_time(kNoonUs).fault(), Fault::kUsage);
 }
 
+TEST_F(OnTheCable, ADayWithoutSnapshotsHidesNoBoard)
+{
+    shelf_.folder(5, 0, "good");
+    shelf_.folder(6, 5, "2026-05-31");
+    shelf_.folder(7, 5, "2026-06-01");
+    snapshot(7, 0x300, "000003_20260601T120000Z");
+    EXPECT_EQ(open(true).size(), 1u);
+}
+
 TEST_F(OnTheCable, NamesThatLeadElsewhereAreNotFollowed)
 {
     shelf_.folder(1, 0, "..");
@@ -220,6 +229,46 @@ TEST_F(OnTheCable, ACableThatIsPulledIsSaidToBePulledAtEveryStep)
         EXPECT_EQ(pulled.fault(), Fault::kUnavailable) << at << ": " << pulled.message();
     }
     EXPECT_GT(unplugged, 15);
+}
+
+TEST_F(OnTheCable, ADeviceWhoseHandlesChangeWithTheSessionIsReadOnByNames)
+{
+    const auto fill = [&](mtp::Handle base) {
+        shelf_ = {};
+        shelf_.folder(base + 1, 0, "home");
+        shelf_.folder(base + 5, base + 1, "good");
+        shelf_.folder(base + 6, base + 5, "2026-06-01");
+        shelf_.folder(base + 7, base + 6, "000003_20260601T120000Z");
+        shelf_.file(0xC10D, base + 7, "cloud.drc", 1'100'000); // what is in it follows from its handle: this one stays
+        shelf_.file(base + 9, base + 7, "record.json", 500);
+        shelf_.file(base + 10, base + 7, "SHA256SUMS", 160);
+    };
+    int broken = 0;
+    for (int at = 0; at < 60; ++at) {
+        fill(0x100);
+        const PullSources sources = open(true);
+        ASSERT_EQ(sources.size(), 1u);
+        pipe_->when_reset = [&] {
+            ++broken;
+            fill(0x200);
+        };
+        pipe_->break_at_receive = at;
+        const std::vector<OfferedSnapshot> offers = offers_of(*sources[0]);
+        ASSERT_EQ(offers.size(), 1u) << at;
+        const std::vector<OfferedFile> files = files_of(*sources[0], offers[0]);
+        ASSERT_EQ(files.size(), 3u) << at;
+        for (const OfferedFile& file : files) {
+            std::vector<std::byte> room(1'200'000);
+            const Result<std::size_t> got = sources[0]->read(file, 0, room);
+            ASSERT_TRUE(got.ok()) << at << ": " << got.status().message();
+            EXPECT_EQ(got.value(), file.bytes);
+            if (file.name.view() != "cloud.drc")
+                continue;
+            room.resize(got.value());
+            EXPECT_EQ(room, test::MemoryShelf::content(0xC10D, 0, room.size())) << at;
+        }
+    }
+    EXPECT_GT(broken, 20);
 }
 
 /// Every folder holds the same folders, among them itself and its own parent.

@@ -13,10 +13,12 @@ using test::response;
 class Hostile : public testing::Test
 {
 protected:
-    void open(const std::string& count = "01000000", const std::string& operations = "1B10")
+    /// A board of ours: its handles outlive the session.
+    void open(const std::string& count = "02000000", const std::string& operations = "1B10 019D",
+              const std::string& extension = test::kOurs)
     {
         pipe_.say(response(0));
-        pipe_.say(data(1, "0110", device_info(count, operations)));
+        pipe_.say(data(1, "0110", device_info(count, operations, extension)));
         pipe_.say(response(1));
         ASSERT_TRUE(initiator_.open().ok());
         pipe_.sent.clear();
@@ -44,6 +46,18 @@ TEST_F(Hostile, ABrokenTransactionIsCancelledAndAskedAgainInANewSession)
     EXPECT_EQ(pipe_.sent[3].substr(8, 8), "01000210"); // OpenSession
     EXPECT_EQ(pipe_.sent[4].substr(8, 8), "01001B10");
     EXPECT_EQ(initiator_.session(), 2u);
+}
+
+TEST_F(Hostile, HandlesOfOthersAreNotUsedInANewSession)
+{
+    open("01000000", "1B10", "00");
+    pipe_.fail(Fault::kIoError);
+    pipe_.fail(Fault::kTryAgain);
+    pipe_.fail(Fault::kTryAgain);
+    pipe_.say(response(0));
+    EXPECT_EQ(initiator_.read(5, 3, 0, into_).status().fault(), Fault::kTryAgain);
+    EXPECT_EQ(initiator_.session(), 2u);
+    EXPECT_EQ(pipe_.sent.back().substr(8, 8), "01000210"); // nothing was asked behind OpenSession
 }
 
 TEST_F(Hostile, ADeviceThatForgotTheSessionGetsANewOne)
@@ -167,7 +181,7 @@ TEST_F(Hostile, ShortPartsOfAFileAreNonsense)
 
 TEST_F(Hostile, WholeObjectsOfAnotherSizeThanWasSaidAreNonsense)
 {
-    open("00000000", "");
+    open("01000000", "019D");
     for (int session = 0; session <= Initiator::kMostRecoveries; ++session) {
         pipe_.say(data(session == 0 ? 2 : 1, "0910", "AABBCC"));
         pipe_.fail(Fault::kTryAgain);

@@ -8,6 +8,7 @@ namespace {
 using test::bytes_of_hex;
 using test::data;
 using test::device_info;
+using test::kOurs;
 using test::response;
 
 /// Open: a session (transaction 0), and what the device is (transaction 1).
@@ -28,10 +29,6 @@ protected:
     test::ScriptedPipe pipe_;
     Initiator initiator_{pipe_, test::kNoPatience};
 };
-
-// "dicot.example: 1.0;" in UTF-16, with its count and end.
-const char* const kOurs = "14 64006900630"
-                          "06F0074002E006500780061006D0070006C0065003A00200031002E0030003B00 0000";
 
 TEST_F(Opened, ASessionIsOpenedAndTheDeviceAskedWhatItIs)
 {

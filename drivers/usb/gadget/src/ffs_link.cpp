@@ -40,6 +40,7 @@ Status broken()
 
 } // namespace
 
+static_assert(FfsLink::kMostPartBytes == BulkIn::kChunks * BulkIn::kChunkBytes);
 static_assert(BulkIn::kParts == mtp::DeviceLink::kMostUnderWay);
 
 /// Members are let go from the last to the first: the thread, then what is under way, then the files.
@@ -219,8 +220,9 @@ Result<std::unique_ptr<FfsLink>> FfsLink::open(const Rules& rules)
     return std::unique_ptr<FfsLink>(new FfsLink(std::move(parts)));
 }
 
-Status FfsLink::await_host()
+Status FfsLink::await_host(int patience_ms)
 {
+    const std::int64_t until_us = monotonic_us() + std::int64_t{patience_ms} * 1000;
     for (bool first = true;; first = false) {
         if (!parts_->rules.goes_on())
             return failure(Fault::kUnavailable, "an end is wanted");
@@ -243,7 +245,10 @@ Status FfsLink::await_host()
             ++parts_->cable.counts.hosts;
             break;
         }
-        parts_->wait(there ? kAfterErrorUs : kSliceUs);
+        const std::int64_t left_us = until_us - monotonic_us();
+        if (left_us <= 0)
+            return failure(Fault::kTryAgain, "no computer has come");
+        parts_->wait(there ? kAfterErrorUs : std::min(left_us, kSliceUs));
     }
     parts_->from_host->arm();
     return {};

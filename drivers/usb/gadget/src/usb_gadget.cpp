@@ -172,7 +172,7 @@ Status UsbGadget::remove()
     // What others point at goes after them.
     for (const std::string& path :
          {gadget + "os_desc/c.1", configuration + "/ffs.dicot", configuration + "/" + kStrings, configuration,
-          gadget + kFunction, gadget + kStrings, places_.gadget(), places_.server(), places_.mount(), places_.run})
+          gadget + kFunction, gadget + kStrings, places_.gadget(), places_.mount()})
         TRY(take_away(path));
     return {};
 }
@@ -215,6 +215,12 @@ std::string UsbGadget::bound_to() const
 {
     const auto line = read_line((places_.gadget() + "/UDC").c_str());
     return line ? std::string(line->view()) : std::string();
+}
+
+bool UsbGadget::is_bound() const noexcept
+{
+    const auto line = read_line(JoinedPath("%s/usb_gadget/dicot/UDC", places_.config.c_str()).c_str());
+    return line && !line->empty();
 }
 
 std::string controller_state(const GadgetPlaces& places, const std::string& controller)

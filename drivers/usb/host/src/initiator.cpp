@@ -54,8 +54,11 @@ Status Initiator::say(const Request& request, Answer& answer)
 
 Status Initiator::ask(const Request& request, Answer& answer)
 {
+    const unsigned session = sessions_;
     TRY(end_stream());
     for (;;) {
+        if (session != sessions_ && request.names_object)
+            TRY(go_on_in_new_session());
         Status said = say(request, answer);
         if (said.ok() && answer.response_code == response::kSessionNotOpen)
             said = failure(Fault::kIoError, "the device forgot the session");
@@ -67,6 +70,14 @@ Status Initiator::ask(const Request& request, Answer& answer)
         }
         TRY(recover(said));
     }
+}
+
+/// Our own boards' handles mean the same for ever.
+Status Initiator::go_on_in_new_session() const
+{
+    if (facts_.lists_snapshots)
+        return {};
+    return failure(Fault::kTryAgain, "the device lost the thread; a new session was begun");
 }
 
 Status Initiator::ask_well(const Request& request, Answer& answer)
@@ -167,7 +178,7 @@ Status Initiator::children(std::uint32_t storage, std::uint32_t parent, bool fol
     for (bool filter = folders_alone && filters_;; filter = false) {
         const std::uint32_t format = filter ? format::kAssociation : 0;
         Answer answer{table()};
-        TRY(ask({operation::kGetObjectHandles, {storage, format, folder}, 3, {}}, answer));
+        TRY(ask({operation::kGetObjectHandles, {storage, format, folder}, 3, {}, parent != 0}, answer));
         if (filter && answer.response_code != response::kOk) {
             filters_ = false;
             continue;
@@ -177,7 +188,7 @@ Status Initiator::children(std::uint32_t storage, std::uint32_t parent, bool fol
             return nonsense(operation::kGetObjectHandles);
         // No object stands in itself or twice, whatever the device says.
         std::ranges::sort(into);
-        into.erase(std::ranges::unique(into).begin(), into.end());
+        into.erase(std::unique(into.begin(), into.end()), into.end());
         std::erase_if(into, [&](std::uint32_t one) { return one == 0 || one == kTop || one == parent; });
         if (filter && into.empty())
             continue; // it may be that it knows no folders by their format
@@ -188,7 +199,7 @@ Status Initiator::children(std::uint32_t storage, std::uint32_t parent, bool fol
 Status Initiator::object(std::uint32_t handle, ObjectFacts& into)
 {
     Answer answer{table()};
-    TRY(ask_well({operation::kGetObjectInfo, {handle}, 1, {}}, answer));
+    TRY(ask_well({operation::kGetObjectInfo, {handle}, 1, {}, true}, answer));
     return read_facts(answer.bytes(), into) ? Status{} : nonsense(operation::kGetObjectInfo);
 }
 
@@ -222,9 +233,9 @@ Status Initiator::read_part(std::uint32_t handle, std::uint64_t offset, std::spa
     const auto most = static_cast<std::uint32_t>(into.size());
     Answer answer{into, into.size()};
     if (facts_.partial_64)
-        TRY(ask_well({operation::kGetPartialObject64, {handle, low, high, most}, 4, {}}, answer));
+        TRY(ask_well({operation::kGetPartialObject64, {handle, low, high, most}, 4, {}, true}, answer));
     else
-        TRY(ask_well({operation::kGetPartialObject, {handle, low, most}, 3, {}}, answer));
+        TRY(ask_well({operation::kGetPartialObject, {handle, low, most}, 3, {}, true}, answer));
     got = answer.got;
     return {};
 }

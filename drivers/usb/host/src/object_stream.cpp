@@ -15,7 +15,6 @@ constexpr std::uint64_t kWorthTaking = std::uint64_t{1} << 20; ///< rather than 
 
 Status Initiator::begin_stream(std::uint32_t handle, std::uint64_t bytes)
 {
-    TRY(end_stream());
     const std::uint32_t words[] = {handle};
     TRY(talk_->command(operation::kGetObject, words));
     const std::uint64_t announced = TRY(talk_->await_data(kPieceBytes, bytes));
@@ -42,9 +41,14 @@ Status Initiator::take_stream(std::span<std::byte> into)
     return {};
 }
 
+bool Initiator::goes_on(std::uint32_t handle, std::uint64_t bytes, std::uint64_t offset) const
+{
+    return stream_.handle == handle && stream_.bytes == bytes && stream_.at <= offset;
+}
+
 Status Initiator::try_stream(std::uint32_t handle, std::uint64_t bytes, std::uint64_t offset, std::span<std::byte> into)
 {
-    if (stream_.handle != handle || stream_.bytes != bytes || stream_.at > offset)
+    if (!goes_on(handle, bytes, offset))
         TRY(begin_stream(handle, bytes));
     while (stream_.at < offset)
         TRY(take_stream(
@@ -55,7 +59,12 @@ Status Initiator::try_stream(std::uint32_t handle, std::uint64_t bytes, std::uin
 Status Initiator::read_stream(std::uint32_t handle, std::uint64_t bytes, std::uint64_t offset,
                               std::span<std::byte> into)
 {
+    const unsigned session = sessions_;
+    if (!goes_on(handle, bytes, offset))
+        TRY(end_stream());
     for (;;) {
+        if (session != sessions_)
+            TRY(go_on_in_new_session());
         const Status got = try_stream(handle, bytes, offset, into);
         if (got.ok()) {
             failures_ = 0;

@@ -15,6 +15,7 @@ struct Initiator::Request
     std::array<std::uint32_t, kMostParameters> words{};
     std::size_t count = 0;
     std::span<const std::byte> data; ///< to the device
+    bool names_object = false;       ///< by a handle, which belongs to the session
 
     std::span<const std::uint32_t> parameters() const noexcept { return std::span{words}.first(count); }
 };

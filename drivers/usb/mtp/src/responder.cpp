@@ -58,7 +58,7 @@ void Responder::serve(const Block& command)
     ++counts_.requests;
     link_.begin_transaction(command.transaction);
     const Reply reply = command.code == 0 ? Reply{response::kGeneralError, {}} : answer(command);
-    if (reply.code != response::kOk)
+    if (reply.code != response::kOk && reply.code != 0)
         ++counts_.refused;
     if (reply.code != 0 && exchange_.fault().ok()) {
         Block block{reply.code, command.transaction, {reply.parameter.value_or(0)}, reply.parameter ? 1u : 0u};

@@ -169,12 +169,21 @@ Status Responder::each_listed(const Block& command, FunctionRef<bool(const Objec
     return objects_.children(listing.handle, look);
 }
 
+bool Responder::objects_fit_one_list()
+{
+    int count = 0;
+    const Status counted = objects_.all([&](Handle) { return exchange_.fault().ok() && ++count <= kMostListed; });
+    return counted.ok() && count <= kMostListed;
+}
+
 Responder::Reply Responder::list_properties(const Block& command)
 {
     tell_changes();
     const Listing listing{command};
     if (const std::uint16_t wrong = listing.wrong(); wrong != response::kOk)
         return {wrong, {}};
+    if (listing.handle == kEvery && !objects_fit_one_list())
+        return {response::kSpecificationByDepthUnsupported, {}};
     const auto write_object = [&](DataWriter& out, const Object& object) {
         std::uint32_t count = 0;
         for (const Property& one : kProperties) {

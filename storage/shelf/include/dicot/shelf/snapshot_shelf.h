@@ -120,6 +120,7 @@ private:
     ShelfDay* find_day(std::uint32_t day) const noexcept;
     Status list_days(FunctionRef<void(const Change&)> changed);
     void take_day(std::uint32_t day, FunctionRef<void(const Change&)> changed);
+    void drop_days_not_there() noexcept;
     void look_into(ShelfDay& day, FunctionRef<void(const Change&)> changed);
     void list_day(ShelfDay& day, FunctionRef<void(const Change&)> changed);
     void tidy_up(FunctionRef<void(const Change&)> changed);

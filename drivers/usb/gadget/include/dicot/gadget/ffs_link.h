@@ -52,9 +52,9 @@ public:
     FfsLink& operator=(const FfsLink&) = delete;
     ~FfsLink() override;
 
-    /// Until a computer has configured us; what was under way with the last one is forgotten. Fault::kUnavailable: an end
-    /// is wanted.
-    Status await_host();
+    /// Until a computer has configured us; what was under way with the last one is forgotten. Fault::kTryAgain: none has
+    /// in that time; kUnavailable: an end is wanted.
+    Status await_host(int patience_ms);
 
     Result<std::size_t> receive(std::span<std::byte> into, int patience_ms) override;
     Status send(std::span<const std::byte> bytes, bool last) override;

@@ -34,7 +34,7 @@ struct GadgetWords
 };
 
 /// Steps that can be repeated: each finds what an earlier process left, and takes it over. All take memory from the
-/// heap, so they come before the seal or after the end, but for bind() and unbind().
+/// heap, so they come before the seal or after the end, but for those that say so.
 class UsbGadget
 {
 public:
@@ -60,7 +60,8 @@ public:
     Status bind(const char* controller) noexcept;
     /// The computer sees a pulled cable. No heap.
     Status unbind() noexcept;
-    std::string bound_to() const; ///< empty: to none
+    std::string bound_to() const;   ///< empty: to none
+    bool is_bound() const noexcept; ///< to any; no heap
 
 private:
     GadgetPlaces places_;

@@ -35,8 +35,8 @@ struct ObjectFacts
 /// One conversation. The device is hostile: whatever it sends, every call ends, in memory that is stated here. A
 /// transaction that breaks is cancelled, the device reset and the session opened anew, kMostRecoveries times in a row;
 /// then Fault::kBadData (it answers nonsense), kUnavailable (it is gone, or silent). Other faults: kNoInput (no such
-/// object), kTryAgain (busy), kUsage (it cannot, or may not; or a person asked for the end), kIoError (it says that it
-/// failed).
+/// object), kTryAgain (busy; or, where handles belong to the session, the session broke: session() is another one now),
+/// kUsage (it cannot, or may not; or a person asked for the end), kIoError (it says that it failed).
 class Initiator
 {
 public:
@@ -99,9 +99,11 @@ private:
     Status recover(const Status& why);
     Status await_ready();
     Status learn();
+    Status go_on_in_new_session() const;
     Status read_part(std::uint32_t handle, std::uint64_t offset, std::span<std::byte> into, std::size_t& got);
     Status read_stream(std::uint32_t handle, std::uint64_t bytes, std::uint64_t offset, std::span<std::byte> into);
     Status try_stream(std::uint32_t handle, std::uint64_t bytes, std::uint64_t offset, std::span<std::byte> into);
+    bool goes_on(std::uint32_t handle, std::uint64_t bytes, std::uint64_t offset) const;
     Status take_stream(std::span<std::byte> into);
     Status begin_stream(std::uint32_t handle, std::uint64_t bytes);
     Status end_stream();

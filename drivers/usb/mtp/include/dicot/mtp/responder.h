@@ -42,6 +42,9 @@ public:
     static constexpr int kIdleMs = 1000;
     /// Events of one look; what is beyond is told by one StorageInfoChanged.
     static constexpr int kMostEvents = 64;
+    /// More objects than that are not told in one property list: the source may need longer for the first byte of it
+    /// than hosts wait (libmtp: 20 s). They ask folder by folder then.
+    static constexpr int kMostListed = 40'000;
 
     Responder(ObjectSource& objects, DeviceLink& link, const DeviceWords& words, std::span<std::byte> room) noexcept;
 
@@ -107,6 +110,7 @@ private:
     Result<Object> find_file(Handle handle);
     std::uint16_t check(const Selection& selection);
     Status each_handle(const Selection& selection, FunctionRef<bool(Handle)> visit);
+    bool objects_fit_one_list();
     Status each_listed(const Block& command, FunctionRef<bool(const Object&)> visit);
     void write_device_property(DataWriter& out, std::uint16_t property) noexcept;
     void write_property(DataWriter& out, std::uint16_t property, const Object& object) noexcept;

@@ -1,0 +1,102 @@
+// dicot gadget: the board as a device from which any computer takes clouds home.
+#include "commands.h"
+#include "config_words.h"
+#include "store/slot_words.h"
+#include "usb/clock_offer.h"
+#include "usb/gadget_server.h"
+#include "usb/gadget_status.h"
+
+#include <cstdio>
+#include <memory>
+
+namespace dicot::app {
+namespace {
+
+struct Words
+{
+    ConfigWords config;
+    std::string root;
+    bool json = false;
+    bool if_wanted = false;
+};
+
+using Work = Status (*)(const ServerWish& wish, const Words& words);
+
+Status up(const ServerWish& wish, const Words&)
+{
+    return serve_store(wish);
+}
+
+Status prepare(const ServerWish& wish, const Words& words)
+{
+    if (words.if_wanted && !wish.config->usb.export_store)
+        return {};
+    return prepare_gadget(wish);
+}
+
+Status down(const ServerWish& wish, const Words&)
+{
+    return take_gadget_down(wish.places);
+}
+
+Status tell(const ServerWish& wish, const Words& words)
+{
+    const GadgetStatus status = gadget_status(wish.places, wish.config->usb.udc);
+    std::printf("%s%s", words.json ? json_text(gadget_json(status)).c_str() : gadget_text(status).c_str(),
+                words.json ? "\n" : "");
+    return {};
+}
+
+Status take_time(const ServerWish& wish, const Words&)
+{
+    return take_waiting_offer(kClockOfferFile, wish.config->usb.clock, board_store(wish).path);
+}
+
+Status run(const Words& words, Work work)
+{
+    const LoadedConfig loaded = TRY(words.config.load());
+    ServerWish wish;
+    wish.config = &loaded.config;
+    wish.root = words.root;
+    return work(wish, words);
+}
+
+CLI::App* add(CLI::App& group, Command& chosen, const std::shared_ptr<Words>& words, const char* name, const char* what,
+              Work work)
+{
+    CLI::App* command = group.add_subcommand(name, what);
+    words->config.add_to(*command);
+    command->callback([words, work, &chosen] { chosen = [words, work] { return run(*words, work); }; });
+    return command;
+}
+
+void add_root(CLI::App& command, Words& words)
+{
+    command.add_option("-o,--output,--store", words.root, "folder of the store, as for snap (default: output.folder)")
+        ->type_name("DIR");
+}
+
+} // namespace
+
+void add_gadget(CLI::App& program, Command& chosen)
+{
+    CLI::App* group = program.add_subcommand(
+        "gadget", "This board as a USB device: a computer that is plugged into it sees the clouds, as those of a camera");
+    group->require_subcommand(1);
+    auto words = std::make_shared<Words>();
+    add_root(*add(*group, chosen, words, "up",
+                  "Shows the store to computers, until 'down', SIGTERM or Ctrl-C; by root, or after 'prepare'", up),
+             *words);
+    add(*group, chosen, words, "down", "Ends who serves, and takes the gadget away; by root", down);
+    add(*group, chosen, words, "status", "Whether a computer is there, who serves, and what was sent", tell)
+        ->add_flag("--json", words->json, "report as JSON");
+    CLI::App* prepared = add(*group, chosen, words, "prepare",
+                             "Root's part alone: makes the gadget, and hands it to who the store belongs to", prepare);
+    add_root(*prepared, *words);
+    prepared->add_flag("--if-wanted", words->if_wanted, "nothing unless usb.export is true");
+    add_root(*add(*group, chosen, words, "take-time",
+                  "Root's part alone: the time that a computer offered becomes the board's, if the rules say yes", take_time),
+             *words);
+}
+
+} // namespace dicot::app
