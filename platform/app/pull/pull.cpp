@@ -93,6 +93,11 @@ Status in_words(const std::string& who, const Status& status)
     return failure(status.fault(), "%s: %s", shown(who).c_str(), status.message());
 }
 
+bool some_board(const std::vector<JobOutcome>& outcomes)
+{
+    return std::ranges::any_of(outcomes, [](const JobOutcome& outcome) { return !outcome.boards.empty(); });
+}
+
 Status print(const Words& words, const PullWishes& wishes, const std::vector<PullJob>& jobs,
              const std::vector<JobOutcome>& outcomes)
 {
@@ -100,9 +105,13 @@ Status print(const Words& words, const PullWishes& wishes, const std::vector<Pul
     std::vector<PullReport> reports;
     nlohmann::json unopened = nlohmann::json::array();
     for (std::size_t k = 0; k < outcomes.size(); ++k) {
-        worst.add(in_words(jobs[k].where, outcomes[k].opened));
         if (!outcomes[k].opened.ok())
             unopened.push_back({{"from", jobs[k].where}, {"error", outcomes[k].opened.message()}});
+        const Status opened = in_words(jobs[k].where, outcomes[k].opened);
+        if (opened.ok() || jobs[k].must_open || !some_board(outcomes))
+            worst.add(opened);
+        else
+            std::fprintf(stderr, "dicot: left alone: %s\n", opened.message());
         for (const PullReport& report : outcomes[k].boards) {
             worst.add(in_words(report.device, report.outcome));
             reports.push_back(report);
@@ -113,7 +122,7 @@ Status print(const Words& words, const PullWishes& wishes, const std::vector<Pul
             failure(Fault::kUnavailable,
                     "nothing to pull: no device has a board's folder; is it the board's data cable, and usb.export "
                     "on?"));
-    if (StopRequest::asked())
+    if (StopRequest::asked() && worst.worst().ok())
         worst.add(failure(Fault::kTryAgain, "stopped; the next pull goes on there"));
     if (words.json) {
         nlohmann::json boards = nlohmann::json::array();

@@ -69,6 +69,7 @@ private:
     std::unique_ptr<Medium> medium_;
     std::unique_ptr<BoardArchive> archive_; ///< goes before the medium
     std::vector<OfferedSnapshot> wanted_;
+    std::int64_t wanted_fresh_ = 0;
     std::uint64_t wanted_bytes_ = 0;
     bool sizes_known_ = true;
     NumberRanges had_;
@@ -112,6 +113,7 @@ Status BoardPull::list()
         if (is_wanted(offered)) {
             wanted_.push_back(offered);
             if (!archive_->find(offered.sequence)) {
+                ++wanted_fresh_;
                 sizes_known_ = sizes_known_ && offered.bytes.has_value();
                 wanted_bytes_ += std::min(offered.bytes.value_or(0), std::uint64_t{1} << 40U);
             }
@@ -141,7 +143,7 @@ bool BoardPull::is_wanted(const OfferedSnapshot& offered)
 Status BoardPull::take_all()
 {
     const int line =
-        screen_.begin(report_.device, static_cast<std::int64_t>(wanted_.size()), sizes_known_ ? wanted_bytes_ : 0);
+        screen_.begin(report_.device, std::ssize(wanted_), wanted_fresh_, sizes_known_ ? wanted_bytes_ : 0);
     Status status;
     for (std::size_t k = 0; k < wanted_.size() && status.ok(); ++k) {
         if (StopRequest::asked())

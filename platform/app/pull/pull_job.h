@@ -15,6 +15,7 @@ struct PullJob
 {
     std::string where; ///< for people
     std::function<Result<std::vector<std::unique_ptr<PullSource>>>()> open;
+    bool must_open = true; ///< that it cannot be opened is a failure even if others can
 };
 
 /// The boards in `folder`: of one board, around the folders of several, or the root of a board's card. `device`: this

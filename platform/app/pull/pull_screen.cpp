@@ -80,7 +80,7 @@ void PullScreen::tell(Line& line)
     }
 }
 
-int PullScreen::begin(const std::string& board, std::int64_t snapshots, std::uint64_t bytes)
+int PullScreen::begin(const std::string& board, std::int64_t snapshots, std::int64_t fresh, std::uint64_t bytes)
 {
     const std::scoped_lock lock(mutex_);
     Line line;
@@ -92,8 +92,9 @@ int PullScreen::begin(const std::string& board, std::int64_t snapshots, std::uin
     if (terminal_)
         draw(line.start_us);
     else
-        std::fprintf(stderr, "%s: %s to pull%s%s\n", line.board.c_str(), counted(snapshots, "snapshot").c_str(),
-                     bytes > 0 ? ", " : "", bytes > 0 ? shown_bytes(static_cast<double>(bytes)).c_str() : "");
+        std::fprintf(stderr, "%s: %lld of %s new%s%s\n", line.board.c_str(), static_cast<long long>(fresh),
+                     counted(snapshots, "snapshot").c_str(), bytes > 0 ? ", " : "",
+                     bytes > 0 ? shown_bytes(static_cast<double>(bytes)).c_str() : "");
     return static_cast<int>(lines_.size()) - 1;
 }
 

@@ -17,8 +17,8 @@ public:
     PullScreen& operator=(const PullScreen&) = delete;
     ~PullScreen();
 
-    /// A board's line. `bytes`: of what is to come; 0: nobody knows.
-    int begin(const std::string& board, std::int64_t snapshots, std::uint64_t bytes);
+    /// A board's line. `snapshots`: that are looked at, of which `fresh` are new; `bytes`: of these, 0: nobody knows.
+    int begin(const std::string& board, std::int64_t snapshots, std::int64_t fresh, std::uint64_t bytes);
     void arrived(int line, std::uint64_t bytes);
     void one_done(int line);
     void end(int line);

@@ -226,7 +226,9 @@ Status DiskArchive::note(const LastPull& pull)
     TRY(on_disk(listed, kIncoming, "listing it"));
     for (const SnapshotName& name : left)
         TRY(PartFolder(medium_, desk_, piece_, name).let_go());
-    return write_last_pull(medium_, pull);
+    // A card or a copy knows only its own: what the board had stands.
+    const auto before = serial_known_ ? std::nullopt : read_last_pull(medium_);
+    return write_last_pull(medium_, before ? LastPull{pull.pulled_us, before->had.together(pull.had)} : pull);
 }
 
 } // namespace

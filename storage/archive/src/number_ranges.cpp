@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 
 namespace dicot {
 namespace {
@@ -74,6 +75,16 @@ NumberRanges NumberRanges::common(const NumberRanges& other) const
             ++theirs;
     }
     return both;
+}
+
+NumberRanges NumberRanges::together(const NumberRanges& other) const
+{
+    std::vector<NumberRange> both;
+    std::ranges::merge(ranges_, other.ranges_, std::back_inserter(both), {}, &NumberRange::first, &NumberRange::first);
+    NumberRanges all;
+    for (const NumberRange& range : both)
+        all.add_range(range);
+    return all;
 }
 
 NumberRanges NumberRanges::without(const NumberRanges& other) const

@@ -62,7 +62,8 @@ public:
     virtual Result<Taken> take(PullSource& source, const OfferedSnapshot& offered, bool verify,
                                FunctionRef<bool(std::uint64_t bytes)> arrived) = 0;
 
-    /// Notes what the source had. Half-pulled snapshots that this board no longer has are let go. Fault::kIoError.
+    /// Notes what the source had; what a board told is not forgotten for a folder. Half-pulled snapshots that this
+    /// board no longer has are let go. Fault::kIoError.
     virtual Status note(const LastPull& pull) = 0;
 
     /// The largest file that is taken: what FAT and MTP's 32 bits can hold.

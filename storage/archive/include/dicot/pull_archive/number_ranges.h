@@ -33,6 +33,8 @@ public:
     NumberRanges absent(std::int64_t first, std::int64_t last) const;
     /// Those that are in both.
     NumberRanges common(const NumberRanges& other) const;
+    /// Those that are in one of both.
+    NumberRanges together(const NumberRanges& other) const;
     /// Those of these that are not in the other.
     NumberRanges without(const NumberRanges& other) const;
 
