@@ -50,7 +50,7 @@ run_board() { # seconds, words for image.sh, "--", words for run.sh
     [ $# = 0 ] || shift
     cp --sparse=always "$(sh tests/vm/clients.sh)" "$work/disk.img"
     # shellcheck disable=SC2086 # $image_words is a list of words
-    sh tests/vm/image.sh -o "$work/${name:?}.cpio" --module ext4 --module dummy_hcd --module libcomposite --module usb_f_fs --module fuse \
+    sh tests/vm/image.sh -o "$work/${name:?}.cpio" --module ext4 --module dummy_hcd --module libcomposite --module usb_f_fs \
         $image_words --file "$work/store=/vm/store" --file .build/arm64/platform/app/dicot=/vm/bin/dicot \
         --file "${built:?}/mtp/trial_host=/vm/bin/trial_host" --file tests/vm/guest/board.sh=/vm/board.sh \
         --file "tests/vm/guest/$name.sh=/vm/story" tests/vm/guest/clients.sh

@@ -1,8 +1,8 @@
 #!/bin/sh
-# The board on a computer's cable: a kernel's gadget and a kernel's host in one machine (dummy_hcd). Real clients that nobody here
-# wrote, and `dicot pull`, read `dicot gadget up`; `dicot pull` reads umtp-responder and QEMU's usb-mtp.
+# What happens to the cable between board and computer while `dicot pull` reads: it is pulled, the computer resets its port, sleeps, fills its
+# disk or dies, the board takes new snapshots, prunes or dies, and a computer that means harm says what it likes.
 #
-#   sh tests/vm/mtp.sh [FOLDER]      FOLDER: for all that it makes; .build/vm-mtp
+#   sh tests/vm/cable.sh [FOLDER]      FOLDER: for all that it makes; .build/vm-cable
 #
 # The machine has a clock of its own (run.sh): what is measured in there does not know how busy its host is.
 cd "$(dirname "$0")/../.." || exit 70

@@ -31,7 +31,8 @@ down() {
 }
 plugged_in() { grep -qs configured /sys/class/udc/dummy_udc.0/state && lsusb | grep -q 1d6b:0100; }
 unplug() { echo >"$gadgets/${1:-dicot}/UDC"; }
-plug() { echo dummy_udc.0 >"$gadgets/${1:-dicot}/UDC" && await 20 plugged_in; }
+# The board plugs itself in again, too, after some seconds.
+plug() { echo dummy_udc.0 >"$gadgets/${1:-dicot}/UDC" 2>/dev/null; await 20 plugged_in; }
 # The process of dicot that was told so.
 told_to() { # words
     for pid in $(pidof dicot); do
