@@ -61,13 +61,10 @@ Status run(const Words& words, Work work)
     return work(wish, words);
 }
 
-CLI::App* add(CLI::App& group, Command& chosen, const std::shared_ptr<Words>& words, const char* name, const char* what,
-              Work work)
+void set(CLI::App& command, Command& chosen, const std::shared_ptr<Words>& words, Work work)
 {
-    CLI::App* command = group.add_subcommand(name, what);
-    words->config.add_to(*command);
-    command->callback([words, work, &chosen] { chosen = [words, work] { return run(*words, work); }; });
-    return command;
+    words->config.add_to(command);
+    command.callback([words, work, &chosen] { chosen = [words, work] { return run(*words, work); }; });
 }
 
 void add_root(CLI::App& command, Words& words)
@@ -81,22 +78,27 @@ void add_root(CLI::App& command, Words& words)
 void add_gadget(CLI::App& program, Command& chosen)
 {
     CLI::App* group = program.add_subcommand(
-        "gadget", "This board as a USB device: a computer that is plugged into it sees the clouds, as those of a camera");
+        "gadget",
+        "This board as a USB device: a computer that is plugged into it sees the clouds, as those of a camera");
     group->require_subcommand(1);
     auto words = std::make_shared<Words>();
-    add_root(*add(*group, chosen, words, "up",
-                  "Shows the store to computers, until 'down', SIGTERM or Ctrl-C; by root, or after 'prepare'", up),
-             *words);
-    add(*group, chosen, words, "down", "Ends who serves, and takes the gadget away; by root", down);
-    add(*group, chosen, words, "status", "Whether a computer is there, who serves, and what was sent", tell)
-        ->add_flag("--json", words->json, "report as JSON");
-    CLI::App* prepared = add(*group, chosen, words, "prepare",
-                             "Root's part alone: makes the gadget, and hands it to who the store belongs to", prepare);
+    CLI::App* served = group->add_subcommand(
+        "up", "Shows the store to computers, until 'down', SIGTERM or Ctrl-C; by root, or after 'prepare'");
+    set(*served, chosen, words, up);
+    add_root(*served, *words);
+    set(*group->add_subcommand("down", "Ends who serves, and takes the gadget away; by root"), chosen, words, down);
+    CLI::App* told = group->add_subcommand("status", "Whether a computer is there, who serves, and what was sent");
+    set(*told, chosen, words, tell);
+    told->add_flag("--json", words->json, "report as JSON");
+    CLI::App* prepared = group->add_subcommand(
+        "prepare", "Root's part alone: makes the gadget, and hands it to who the store belongs to");
+    set(*prepared, chosen, words, prepare);
     add_root(*prepared, *words);
     prepared->add_flag("--if-wanted", words->if_wanted, "nothing unless usb.export is true");
-    add_root(*add(*group, chosen, words, "take-time",
-                  "Root's part alone: the time that a computer offered becomes the board's, if the rules say yes", take_time),
-             *words);
+    CLI::App* timed = group->add_subcommand(
+        "take-time", "Root's part alone: the time that a computer offered becomes the board's, if the rules say yes");
+    set(*timed, chosen, words, take_time);
+    add_root(*timed, *words);
 }
 
 } // namespace dicot::app

@@ -8,6 +8,7 @@
 #include "run/series.h"
 #include "run/told_time.h"
 #include "stop_request.h"
+#include "usb/gadget_child.h"
 
 #include "dicot/base/utc_time.h"
 #include "dicot/power/power_rules.h"
@@ -115,8 +116,21 @@ void use_ports(CamerasPower& cameras, const Config& config)
         journal(Priority::kWarning, "%s", used.message());
 }
 
-Status go(const Words& words, const Config& config, const Schedule& schedule, const TimeZone& zone)
+/// The clouds on the cable are a process of their own: what a computer may do there never meets the series.
+void show_to_computers(GadgetChild& child, const Words& words, const std::string& config_file)
 {
+    std::vector<std::string> said{"dicot", "gadget", "up"};
+    if (!config_file.empty())
+        said.insert(said.end(), {"--config", config_file});
+    if (!words.root.empty())
+        said.insert(said.end(), {"--output", words.root});
+    if (const Status started = child.start(std::move(said)); !started.ok())
+        journal(Priority::kWarning, "%s", started.message());
+}
+
+Status go(const Words& words, const LoadedConfig& loaded, const Schedule& schedule, const TimeZone& zone)
+{
+    const Config& config = loaded.config;
     RunMemory::keep_address_space_known();
     const BareProcess bare = TRY(BareProcess::measure());
     const bool told = words.rehearsed > 0;
@@ -146,6 +160,9 @@ Status go(const Words& words, const Config& config, const Schedule& schedule, co
     const auto in_office = [&](FunctionRef<Status()> work) { return memory->safely(work); };
     Series series({config, schedule, zone, board, bench, *time, cameras, watch, in_office}, how);
     TRY(series.begin(cause_of(watch)));
+    GadgetChild child;
+    if (config.usb.export_store && !told && !words.once)
+        show_to_computers(child, words, loaded.file);
     memory->seal();
     watch.ready();
     if (words.once)
@@ -159,7 +176,7 @@ Status run(const Words& words)
     const Schedule schedule = TRY(make_schedule(loaded.config.schedule));
     const TimeZone zone = TRY(TimeZone::open(loaded.config.schedule.timezone));
     TRY(check(words, loaded.config, schedule));
-    return go(words, loaded.config, schedule, zone);
+    return go(words, loaded, schedule, zone);
 }
 
 } // namespace

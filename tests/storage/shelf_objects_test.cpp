@@ -1,120 +1,16 @@
 // The store as the objects of a host: handles that mean the same for ever, and what a host may do to it.
-#include "store_scene.h"
+#include "shelf_objects_scene.h"
 
 #include "dicot/os/clock.h"
-#include "dicot/os/heap_gate.h"
-#include "dicot/os/memory_block.h"
-#include "dicot/os/memory_reserve.h"
-#include "dicot/os/sha256.h"
 
-#include "shelf_marks.h"
-#include "shelf_objects.h"
-
-#include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <map>
-#include <optional>
+#include <utility>
 
 namespace dicot::test {
 namespace {
 
-namespace fs = std::filesystem;
-using app::ShelfObjects;
-using app::ShelfSettings;
-using mtp::Handle;
-
-constexpr std::int64_t kDay = 86'400 * kSecond;
 constexpr Handle kJune1 = 0x80000000U + 20'605; ///< 2026-06-01 is 56 years, 14 leap days and 151 days after 1970-01-01
 static_assert(56 * 365 + 14 + 151 == 20'605);
-
-class Objects : public StoreScene
-{
-protected:
-    void TearDown() override { objects_.reset(); }
-
-    ShelfSettings settings() const
-    {
-        ShelfSettings settings;
-        settings.path = root();
-        settings.device = "board-3";
-        settings.rules = {.reserve_bytes = 0, .prune = Prune::kPulled, .cause = {}};
-        settings.offer_file = at("clock-offer");
-        return settings;
-    }
-    ShelfObjects& look(const ShelfSettings& settings)
-    {
-        objects_.reset();
-        objects_ = ShelfObjects::open(settings).value();
-        return *objects_;
-    }
-    ShelfObjects& look() { return look(settings()); }
-
-    std::vector<Handle> children(Handle parent)
-    {
-        std::vector<Handle> handles;
-        const Status status =
-            objects_->children(parent, [&](Handle handle) { return handles.push_back(handle), true; });
-        EXPECT_TRUE(status.ok()) << status.message();
-        return handles;
-    }
-    /// "board-3/2026-06-01/000001_.../cloud.drc", as a host puts it together.
-    std::string path_of(Handle handle)
-    {
-        std::string path;
-        for (int depth = 0; handle != mtp::kRoot && depth < 5; ++depth) {
-            const auto object = objects_->find(handle);
-            EXPECT_TRUE(object.ok()) << object.status().message();
-            if (!object.ok())
-                break;
-            path = object.value().name.c_str() + (path.empty() ? "" : "/" + path);
-            handle = object.value().parent;
-        }
-        return path;
-    }
-    /// What a host has when it has taken everything.
-    std::map<std::string, std::string> everything()
-    {
-        std::map<std::string, std::string> files;
-        const Status status = objects_->all([&](Handle handle) {
-            const mtp::Object object = objects_->find(handle).value();
-            const std::vector<Handle> beside = children(object.parent);
-            EXPECT_EQ(std::ranges::count(beside, handle), 1) << object.name.c_str();
-            EXPECT_TRUE(std::ranges::is_sorted(beside));
-            if (object.folder)
-                return true;
-            std::string bytes(object.bytes + 10, '\0');
-            std::size_t got = 0;
-            EXPECT_TRUE(objects_->read(handle, 0, std::as_writable_bytes(std::span(bytes)), got).ok());
-            EXPECT_EQ(got, object.bytes);
-            bytes.resize(got);
-            files[path_of(handle)] = bytes;
-            return true;
-        });
-        EXPECT_TRUE(status.ok());
-        return files;
-    }
-    std::map<std::string, std::string> on_the_disk() const
-    {
-        std::map<std::string, std::string> files;
-        for (const auto& entry : fs::recursive_directory_iterator(root())) {
-            const std::string path = fs::relative(entry.path(), root()).string();
-            if (entry.is_regular_file() && path.starts_with("20") && entry.path().filename() != "PULLED")
-                files["board-3/" + path] = text_at(path);
-        }
-        return files;
-    }
-    std::vector<mtp::SnapshotNote> notes(std::int64_t first = 1)
-    {
-        std::vector<mtp::SnapshotNote> all;
-        EXPECT_TRUE(objects_->snapshots(first, [&](const auto& note) { return all.push_back(note), true; }).ok());
-        return all;
-    }
-    static mtp::PulledNote pulled(const mtp::SnapshotNote& note) { return {note.sequence, note.sums}; }
-
-private:
-    std::unique_ptr<ShelfObjects> objects_;
-};
 
 TEST_F(Objects, AHostThatTakesEverythingHasWhatIsOnTheDisk)
 {
@@ -278,78 +174,22 @@ TEST_F(Objects, AHostsTimeIsRefusedByABoardWhoseClockIsSet)
     EXPECT_FALSE(is_at("clock-offer"));
 }
 
-/// All that a responder may ask, with a heap that is closed for good.
-TEST_F(Objects, NothingIsTakenFromTheHeapAfterItIsSealed)
+TEST_F(Objects, WhatIsNotShownIsToldWithItsReason)
 {
-    if (!heap_gate::replaces_operator_new())
-        GTEST_SKIP() << "sanitizers bring their own operator new";
-    Store& store = open();
-    for (int k = 0; k < 40; ++k)
-        ASSERT_TRUE(store_one(store, kNoon + k * kSecond).ok());
+    for (int k = 0; k < 4; ++k)
+        ASSERT_TRUE(store_one(open(), kNoon + k * kSecond).ok());
     close();
-    const app::ShelfBudget budget = app::shelf_budget({64, 16});
-    ShelfSettings small = settings();
-    small.limits = {64, 16};
-    ShelfObjects& objects = look(small);
-    const auto all = notes();
-    std::vector<mtp::PulledNote> marks;
-    for (const auto& note : all)
-        marks.push_back(pulled(note));
-    const MemoryBlock pages = MemoryBlock::map(budget.pages).value();
-    static MemoryBlock libraries = MemoryBlock::map(std::size_t{64} << 10).value();
-    std::size_t objects_seen = 0, notes_seen = 0, changes = 0, got = 0;
-    static std::byte bytes[4096];
-    Status marked, refreshed;
-    {
-        const MemoryReserve reserve(pages.bytes());
-        heap_gate::seal_for_good(libraries.bytes(), heap_gate::Breach::kCount);
-        refreshed = objects.refresh([&](const auto&) { ++changes; });
-        marked = objects.mark_pulled(marks);
-        (void)objects.all([&](Handle handle) { return (void)objects.find(handle), ++objects_seen, true; });
-        (void)objects.read(0x11, 0, bytes, got);
-        (void)objects.snapshots(1, [&](const mtp::SnapshotNote& note) { return notes_seen += note.pulled, true; });
-        (void)objects.offer_time({kNoon});
-        (void)objects.shelf();
-        heap_gate::reopen();
-        EXPECT_EQ(reserve.used_bytes(), 0U);
-        EXPECT_EQ(reserve.refused(), 0U);
-        std::printf("pages %zu of %zu\n", reserve.peak_bytes(), budget.pages);
-    }
-    EXPECT_TRUE(marked.ok()) << marked.message();
-    EXPECT_TRUE(refreshed.ok());
-    EXPECT_EQ(heap_gate::breaches(), 0U);
-    EXPECT_EQ(heap_gate::libraries_heap().refused, 0U);
-    std::printf("malloc: %zu bytes at most\n", heap_gate::libraries_heap().peak_bytes);
-    EXPECT_EQ(objects_seen, 1U + 1U + 40U * 5U);
-    EXPECT_EQ(notes_seen, 40U);
-    EXPECT_EQ(got, 10U);
-    EXPECT_EQ(changes, 0U);
-}
-
-TEST_F(Objects, AnOfficeThatIsTooSmallIsARefusalAndLeavesTheStoreAsItWas)
-{
-    if (!heap_gate::replaces_operator_new())
-        GTEST_SKIP() << "sanitizers bring their own operator new";
-    ASSERT_TRUE(store_one(open(), kNoon).ok());
-    close();
-    look();
-    const std::vector<mtp::PulledNote> marks(512, pulled(notes()[0]));
-    std::vector<std::byte> office(app::kMarksOfficeBytes);
-    const StoreRules rules{.reserve_bytes = 0, .prune = Prune::kPulled, .cause = {}};
-    int refused = 0;
-    for (std::size_t bytes = 1024; bytes < office.size(); bytes += 4096) {
-        const Status status = app::write_marks(root(), rules, marks, std::span(office).first(bytes));
-        refused += status.ok() ? 0 : 1;
-        if (!status.ok()) {
-            EXPECT_EQ(status.fault(), Fault::kOsError) << status.message();
-        }
-    }
-    EXPECT_GT(refused, 0);
-    std::printf("512 marks take %d KiB\n", 4 * refused);
-    EXPECT_LT(refused * 4096, static_cast<int>(office.size() / 2)) << "no reserve is left";
-    EXPECT_EQ(everything(), on_the_disk());
-    open();
-    EXPECT_EQ(verify().findings, 0);
+    EXPECT_EQ(app::hidden_words(look().hidden()).view(), "");
+    ShelfSettings few = settings();
+    few.limits.snapshots = 2;
+    fs::remove(at("2026-06-01/000004_20260601T120003Z/SHA256SUMS"));
+    ShelfObjects& objects = look(few);
+    EXPECT_EQ(notes().size(), 1U);
+    EXPECT_EQ(app::hidden_words(objects.hidden()).view(),
+              "not shown to computers: 1 damaged (dicot verify names them), 2 "
+              "older than what fits (pull, then prune)");
+    constexpr std::size_t kMany = 4'000'000'000;
+    EXPECT_EQ(app::hidden_words({kMany, kMany, kMany, kMany, kMany}).view().substr(0, 24), "not shown to computers: ");
 }
 
 } // namespace

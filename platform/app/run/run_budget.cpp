@@ -19,8 +19,8 @@ constexpr std::size_t kMiB = 1024 * kKiB;
 constexpr std::size_t kWorkingBytes = 2560 * kKiB;
 /// The system's heap grows by pieces.
 constexpr std::size_t kHeapGrowthBytes = 2 * kMiB;
-/// Beside the crew: libusb's events and its monitor.
-constexpr int kOtherThreads = 2;
+/// Beside the crew: libusb's events and its monitor, and who looks after the gadget's process.
+constexpr int kOtherThreads = 3;
 constexpr std::size_t kGuardBytes = 64 * kKiB; ///< below a stack: a page, of 64 KiB at most
 
 /// Of a catalogue that is written to, without the sorting of large tables; half a MiB seen over 10,000 snapshots.

@@ -75,8 +75,9 @@ Status prepare_gadget(const ServerWish& wish)
 Result<ServerPage> prepared_page(const ServerWish& wish, UsbGadget& gadget)
 {
     if (::geteuid() != 0 && !gadget.prepared())
-        return failure(Fault::kUnavailable, "%s is not mounted: run 'dicot gadget prepare' as root first, or all of it as "
-                                            "root",
+        return failure(Fault::kUnavailable,
+                       "%s is not mounted: run 'dicot gadget prepare' as root first, or all of it as "
+                       "root",
                        wish.places.mount().c_str());
     ServerPage page = TRY(take_page(wish.places));
     if (::geteuid() == 0) {

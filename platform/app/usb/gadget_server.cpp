@@ -1,5 +1,6 @@
 #include "gadget_server.h"
 
+#include "gadget_child.h"
 #include "gadget_root.h"
 #include "gadget_words.h"
 #include "server_page.h"
@@ -37,7 +38,8 @@ bool goes_on()
 /// In bytes, of what is taken already and what may come.
 std::size_t most_resident(const ProcessMemory& now, const ShelfBudget& shelf)
 {
-    return static_cast<std::size_t>(now.resident_bytes) + shelf.resident() + kOfficeBytes + kLibrariesBytes + kWorkingBytes;
+    return static_cast<std::size_t>(now.resident_bytes) + shelf.resident() + kOfficeBytes + kLibrariesBytes +
+           kWorkingBytes;
 }
 
 RunBudget budget_of(const ShelfBudget& shelf)
@@ -74,14 +76,16 @@ struct Server
     mtp::Responder& responder;
     ServerFigures& figures;
     std::uint64_t sessions_told = 0;
+    bool controller_went = false;
 
-    /// A controller that became a host's port, or was unloaded, has let go of the gadget; it may be back.
+    /// A controller that went (its driver was unloaded, its port became a host's) has let go of the gadget. What
+    /// somebody unbound by hand stays so.
     void keep_bound()
     {
-        if (gadget.is_bound())
-            return;
-        if (gadget.bind(controller.c_str()).ok())
+        const bool there = controller_there(gadget.places(), controller.c_str());
+        if (there && controller_went && gadget.bind(controller.c_str()).ok())
             journal(Priority::kNotice, "the USB device port %s is there again", controller.c_str());
+        controller_went = !there;
     }
 
     void tell()
@@ -132,6 +136,7 @@ Status serve_store(const ServerWish& wish)
 {
     RunMemory::keep_address_space_known();
     const StopRequest stop;
+    live_with_parent();
     UsbGadget gadget(wish.places);
     const BoardStore store = board_store(wish);
     TRY(check_store(store));
@@ -160,10 +165,11 @@ Status serve_store(const ServerWish& wish)
     ServerFigures& figures = page.figures();
     figures.fixed_bytes = most_resident(TRY(process_memory()), shelf);
     figures.began_us = static_cast<std::uint64_t>(utc_now_us());
-    std::printf("a computer at %s sees the board \"%s\", serial number %s, with the clouds of %s; memory is fixed: %.1f MiB "
-                "at most\n",
-                controller.c_str(), store.device.c_str(), serial.c_str(), store.path.c_str(),
-                static_cast<double>(figures.fixed_bytes) / (1024 * 1024));
+    std::printf(
+        "a computer at %s sees the board \"%s\", serial number %s, with the clouds of %s; memory is fixed: %.1f MiB "
+        "at most\n",
+        controller.c_str(), store.device.c_str(), serial.c_str(), store.path.c_str(),
+        static_cast<double>(figures.fixed_bytes) / (1024 * 1024));
     std::fflush(stdout);
     Server server{gadget, controller, *link, *responder, figures};
     memory->seal();

@@ -23,8 +23,9 @@ BoardStore board_store(const ServerWish& wish);
 /// Root's part, for whoever the store belongs to. Fault::kTryAgain: somebody serves. Else as UsbGadget::prepare().
 Status prepare_gadget(const ServerWish& wish);
 
-/// Until SIGTERM, SIGINT or SIGHUP. By root: prepares first, and then becomes who the store belongs to. Fault::kTryAgain:
-/// somebody serves already; kUnavailable: no port, not prepared, no store yet. Errors: those of UsbGadget and FfsLink.
+/// Until SIGTERM, SIGINT or SIGHUP. By root: prepares first, and then becomes who the store belongs to.
+/// Fault::kTryAgain: somebody serves already; kUnavailable: no port, not prepared, no store yet. Errors: those of
+/// UsbGadget and FfsLink.
 Status serve_store(const ServerWish& wish);
 
 /// Ends who serves, and waits for it; removes the gadget. Fault::kUnavailable: not root. Nothing to do is no fault.

@@ -94,9 +94,11 @@ std::string gadget_text(const GadgetStatus& status)
     else
         text += "port      " + status.controller + ": " + (status.state.empty() ? "?" : status.state) +
                 (status.state == "configured" ? ", " + status.speed : "") + "\n";
-    text += std::string("gadget    ") + (status.bound      ? "bound: a computer sees it"
-                                         : status.prepared ? "prepared, not bound"
-                                                           : "not prepared: 'dicot gadget up' as root") + "\n";
+    text += std::string("gadget    ") +
+            (status.bound      ? "bound: a computer sees it"
+             : status.prepared ? "prepared, not bound"
+                               : "not prepared: 'dicot gadget up' as root") +
+            "\n";
     if (!status.server)
         return text + "served    by nobody\n";
     const SeenServer& seen = *status.server;

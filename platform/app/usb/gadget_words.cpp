@@ -23,8 +23,8 @@ GadgetWords gadget_words(const std::string& device, const std::string& serial, c
     (void)std::sscanf(version, "%u.%u.%u", &major, &minor, &patch);
     GadgetWords words;
     // Binary coded decimals, as USB has them: two digits, one, one.
-    words.version_bcd = static_cast<std::uint16_t>((major / 10 % 10) << 12 | major % 10 << 8 | std::min(minor, 9U) << 4 |
-                                                   std::min(patch, 9U));
+    words.version_bcd = static_cast<std::uint16_t>((major / 10 % 10) << 12 | major % 10 << 8 |
+                                                   std::min(minor, 9U) << 4 | std::min(patch, 9U));
     words.product = "dicot " + device;
     words.serial = serial;
     return words;

@@ -54,8 +54,8 @@ Result<ServerPage> ServerPage::take(const std::string& path)
     ServerPage page;
     page.file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);
     if (page.file_ < 0)
-        return failure(Fault::kUnavailable, "%s cannot be opened (%s): run 'dicot gadget prepare' as root", path.c_str(),
-                       strerrordesc_np(errno));
+        return failure(Fault::kUnavailable, "%s cannot be opened (%s): run 'dicot gadget prepare' as root",
+                       path.c_str(), strerrordesc_np(errno));
     struct flock lock = whole_file(F_WRLCK);
     if (::fcntl(page.file_, F_SETLK, &lock) != 0) {
         if (errno == EAGAIN || errno == EACCES)
@@ -108,9 +108,9 @@ std::optional<SeenServer> look_at_server(const std::string& path) noexcept
     const auto& page = *static_cast<const ServerFigures*>(at);
     std::optional<SeenServer> seen;
     if (page.magic == ServerFigures::kMagic)
-        seen = SeenServer{process,          page.began_us,   page.fixed_bytes,  page.session_open, page.sessions,
-                          page.requests,    page.refused,    page.cancelled,    page.objects_sent, page.bytes_sent,
-                          page.marked,      page.hosts,      page.resets,       page.given_up,     page.events_dropped};
+        seen = SeenServer{process,       page.began_us, page.fixed_bytes, page.session_open, page.sessions,
+                          page.requests, page.refused,  page.cancelled,   page.objects_sent, page.bytes_sent,
+                          page.marked,   page.hosts,    page.resets,      page.given_up,     page.events_dropped};
     (void)::munmap(at, kPageBytes);
     return seen;
 }

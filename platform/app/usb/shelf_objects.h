@@ -28,6 +28,9 @@ struct ShelfBudget
 };
 ShelfBudget shelf_budget(const SnapshotShelf::Limits& limits = {}) noexcept;
 
+/// What of the store is not shown and why, a sentence for the log; empty: everything is.
+ShortText<255> hidden_words(const SnapshotShelf::Hidden& hidden);
+
 struct ShelfSettings
 {
     std::string path;                   ///< folder of the board's snapshots
@@ -60,7 +63,7 @@ public:
     Status mark_pulled(std::span<const mtp::PulledNote> pulled) override;
     Status offer_time(const mtp::TimeOffer& offer) override;
 
-    /// What is there and not shown, for the log.
+    /// What is there and not shown.
     const SnapshotShelf::Hidden& hidden() const noexcept { return shelf_.hidden(); }
 
 private:

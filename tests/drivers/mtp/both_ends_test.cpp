@@ -1,9 +1,8 @@
 // The computer's side and the board's, with memory for a cable: what one says the other understands.
 #include "board.h"
+#include "responder_pipe.h"
 
 #include "dicot/mtp_host/initiator.h"
-
-#include <deque>
 
 namespace dicot {
 namespace {
@@ -11,63 +10,6 @@ namespace {
 using test::Bytes;
 using test::MemoryShelf;
 using test::MtpBoard;
-
-/// Both ends in one thread: whoever waits for the board lets it serve.
-class MemoryPipe final : public mtp::UsbPipe
-{
-public:
-    MemoryPipe(test::ScriptLink& link, mtp::Responder& responder) : link_(link), responder_(responder) {}
-
-    std::size_t packet_bytes() const override { return test::ScriptLink::kPacket; }
-    Status send(std::span<const std::byte> bytes, int) override
-    {
-        link_.say({bytes.begin(), bytes.end()});
-        if (bytes.size() % packet_bytes() == 0)
-            link_.say({});
-        return {};
-    }
-    Result<Piece> receive(std::span<std::byte> into, int) override
-    {
-        while (transfers_.empty()) {
-            if (link_.all_taken())
-                return failure(Fault::kTryAgain, "silence");
-            TRY(responder_.serve_one());
-            for (Bytes& one : link_.take_sent())
-                transfers_.push_back(std::move(one));
-        }
-        Bytes& front = transfers_.front();
-        const std::size_t size = std::min(into.size(), front.size() - at_);
-        std::copy_n(front.begin() + static_cast<std::ptrdiff_t>(at_), size, into.begin());
-        at_ += size;
-        if (size == into.size())
-            return Piece{size, false};
-        transfers_.pop_front();
-        at_ = 0;
-        return Piece{size, true};
-    }
-    Status cancel(std::uint32_t) override
-    {
-        clear_halts();
-        return {};
-    }
-    Status reset() override
-    {
-        link_.reset();
-        return {};
-    }
-    Result<std::uint16_t> status() override { return mtp::response::kOk; }
-    void clear_halts() override
-    {
-        transfers_.clear();
-        at_ = 0;
-    }
-
-private:
-    test::ScriptLink& link_;
-    mtp::Responder& responder_;
-    std::deque<Bytes> transfers_;
-    std::size_t at_ = 0;
-};
 
 class BothEnds : public MtpBoard
 {
@@ -83,15 +25,15 @@ protected:
         EXPECT_EQ(into, MemoryShelf::content(handle, offset, into.size()));
     }
 
-    MemoryPipe pipe{link, responder};
-    mtp::Initiator host{pipe};
+    test::ResponderPipe pipe{shelf};
+    mtp::Initiator host{pipe, {1000, 0, 0}};
 };
 
 TEST_F(BothEnds, KnowEachOther)
 {
     const mtp::DeviceFacts& facts = host.facts();
-    EXPECT_EQ(facts.model.view(), "stereo");
-    EXPECT_EQ(facts.serial.view(), "B3");
+    EXPECT_EQ(facts.model.view(), "board");
+    EXPECT_EQ(facts.serial.view(), "S7");
     EXPECT_TRUE(facts.lists_snapshots);
     std::vector<std::uint32_t> storages;
     ASSERT_TRUE(host.storages(storages).ok());
@@ -136,6 +78,17 @@ TEST_F(BothEnds, FileThatIsPrunedMidwayIsNotThereAndTheNextOneIsRead)
     EXPECT_EQ(host.read(kCloud, 300'000, 0, into).status().fault(), Fault::kNoInput);
     shelf.prune_at = UINT64_MAX;
     expect_file(kLeft, 1000, 0, 1000);
+    EXPECT_EQ(pipe.counts().sessions, 1u) << "nobody was reset for it";
+}
+
+TEST_F(BothEnds, FileThatCannotBeReadHoldsUpNoOther)
+{
+    shelf.read_fault = Fault::kIoError;
+    shelf.read_fault_at = 200'000;
+    Bytes into(300'000);
+    EXPECT_EQ(host.read(kCloud, 300'000, 0, into).status().fault(), Fault::kIoError);
+    expect_file(kLeft, 1000, 0, 1000);
+    EXPECT_EQ(pipe.counts().sessions, 1u) << "nobody was reset for it";
 }
 
 TEST_F(BothEnds, ListMarkAndTellTheTime)
@@ -163,12 +116,12 @@ TEST_F(BothEnds, ListMarkAndTellTheTime)
 
 TEST_F(BothEnds, SessionThatWasLeftOpenIsNoHindrance)
 {
-    mtp::Initiator other{pipe};
+    mtp::Initiator other{pipe, {1000, 0, 0}};
     EXPECT_TRUE(other.open().ok());
     std::vector<std::uint32_t> storages;
     EXPECT_TRUE(other.storages(storages).ok());
     other.close();
-    EXPECT_FALSE(responder.counts().session_open);
+    EXPECT_FALSE(pipe.counts().session_open);
 }
 
 } // namespace

@@ -22,8 +22,7 @@ Status AioQueue::open(unsigned most) noexcept
 {
     event_ = ::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
     if (event_ < 0 || ::syscall(SYS_io_setup, most, &context_) != 0)
-        return failure(Fault::kOsError,
-                       "the kernel gives no asynchronous transfers (%s): CONFIG_AIO, fs.aio-max-nr",
+        return failure(Fault::kOsError, "the kernel gives no asynchronous transfers (%s): CONFIG_AIO, fs.aio-max-nr",
                        strerrordesc_np(errno));
     return {};
 }

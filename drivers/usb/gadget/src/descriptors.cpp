@@ -31,8 +31,8 @@ void DescriptorBlock::put32(std::uint32_t value) noexcept
 
 void DescriptorBlock::interface() noexcept
 {
-    for (const unsigned value : {unsigned{USB_DT_INTERFACE_SIZE}, unsigned{USB_DT_INTERFACE}, 0U, 0U, 3U, kStillImage,
-                                 kCapture, kPtp, 1U})
+    for (const unsigned value :
+         {unsigned{USB_DT_INTERFACE_SIZE}, unsigned{USB_DT_INTERFACE}, 0U, 0U, 3U, kStillImage, kCapture, kPtp, 1U})
         put8(value);
 }
 
@@ -105,8 +105,8 @@ DescriptorBlock::DescriptorBlock(std::uint16_t os_version) noexcept
 std::span<const std::byte> interface_string() noexcept
 {
     // magic, length, one string, one language; 0x0409, "MTP"
-    static constexpr std::array<unsigned char, 22> kBytes{FUNCTIONFS_STRINGS_MAGIC, 0, 0, 0, 22, 0, 0, 0, 1, 0, 0, 0, 1, 0,
-                                                          0, 0, 0x09, 0x04, 'M', 'T', 'P', 0};
+    static constexpr std::array<unsigned char, 22> kBytes{
+        FUNCTIONFS_STRINGS_MAGIC, 0, 0, 0, 22, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0x09, 0x04, 'M', 'T', 'P', 0};
     return std::as_bytes(std::span(kBytes));
 }
 

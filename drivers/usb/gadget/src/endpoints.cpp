@@ -37,7 +37,8 @@ Result<Descriptor> open_one(const char* mount, int number) noexcept
         return failure(Fault::kUnavailable, "%s is not there: run 'dicot gadget prepare' as root", path.c_str());
     if (why == EACCES || why == EPERM)
         return failure(Fault::kUnavailable,
-                       "%s is not this user's: 'dicot gadget prepare' as root hands it to who is to serve", path.c_str());
+                       "%s is not this user's: 'dicot gadget prepare' as root hands it to who is to serve",
+                       path.c_str());
     return failure(Fault::kUnavailable, "%s cannot be opened (%s)", path.c_str(), strerrordesc_np(why));
 }
 

@@ -360,7 +360,9 @@ CableState FfsLink::state() const noexcept
 {
     const std::lock_guard guard(parts_->cable.lock);
     const StillImage& image = parts_->cable.image;
-    return !image.enabled() ? CableState::kNoHost : image.suspended() ? CableState::kSuspended : CableState::kConfigured;
+    return !image.enabled()    ? CableState::kNoHost
+           : image.suspended() ? CableState::kSuspended
+                               : CableState::kConfigured;
 }
 
 } // namespace dicot

@@ -61,9 +61,10 @@ Status provide_configfs(const std::string& config)
     if (!is_folder(wanted) && ::mount("configfs", config.c_str(), "configfs", 0, nullptr) != 0 && errno != EBUSY)
         return failure(Fault::kOsError, "%s: configfs cannot be mounted (%s)", config.c_str(), strerrordesc_np(errno));
     if (!is_folder(wanted))
-        return failure(Fault::kUnavailable,
-                       "%s is not there: this kernel has no libcomposite (CONFIG_USB_LIBCOMPOSITE, CONFIG_USB_CONFIGFS)",
-                       wanted.c_str());
+        return failure(
+            Fault::kUnavailable,
+            "%s is not there: this kernel has no libcomposite (CONFIG_USB_LIBCOMPOSITE, CONFIG_USB_CONFIGFS)",
+            wanted.c_str());
     return {};
 }
 
@@ -84,7 +85,8 @@ Status mount_functionfs(const std::string& name, const std::string& folder, uid_
     if (::mount(name.c_str(), folder.c_str(), "functionfs", MS_NOSUID | MS_NODEV | MS_NOEXEC, options) == 0)
         return {};
     return failure(errno == EPERM ? Fault::kUnavailable : Fault::kOsError, "%s: FunctionFS cannot be mounted (%s)",
-                   folder.c_str(), errno == ENODEV ? "this kernel has none: CONFIG_USB_CONFIGFS_F_FS" : strerrordesc_np(errno));
+                   folder.c_str(),
+                   errno == ENODEV ? "this kernel has none: CONFIG_USB_CONFIGFS_F_FS" : strerrordesc_np(errno));
 }
 
 Status unmount_functionfs(const std::string& folder)

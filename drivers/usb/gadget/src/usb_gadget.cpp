@@ -30,8 +30,8 @@ constexpr const char* kHint = "see drivers/usb/gadget/README.md of dicot for wha
 
 Status refused(const std::string& path, const char* what, int why)
 {
-    return failure(why == EACCES || why == EPERM ? Fault::kUnavailable : Fault::kOsError, "%s: %s (%s)", path.c_str(), what,
-                   why == EACCES || why == EPERM ? "run as root" : strerrordesc_np(why));
+    return failure(why == EACCES || why == EPERM ? Fault::kUnavailable : Fault::kOsError, "%s: %s (%s)", path.c_str(),
+                   what, why == EACCES || why == EPERM ? "run as root" : strerrordesc_np(why));
 }
 
 Status make_folders(const std::string& path)
@@ -108,8 +108,8 @@ Result<std::string> UsbGadget::controller(const std::string& wanted) const
     std::string all;
     for (const std::string& name : names)
         all += (all.empty() ? "" : ", ") + name;
-    return failure(Fault::kUnavailable, "usb.udc is %s, and this board has %s: give one of these, or \"\"", wanted.c_str(),
-                   all.c_str());
+    return failure(Fault::kUnavailable, "usb.udc is %s, and this board has %s: give one of these, or \"\"",
+                   wanted.c_str(), all.c_str());
 }
 
 Status UsbGadget::make(const GadgetWords& words) const
@@ -118,8 +118,7 @@ Status UsbGadget::make(const GadgetWords& words) const
     const std::string configuration = gadget + "/" + kConfiguration;
     const std::string strings = gadget + "/" + kStrings;
     const std::string function = gadget + "/" + kFunction;
-    for (const std::string& folder :
-         {gadget, strings, configuration + "/" + kStrings, function, gadget + "/os_desc"})
+    for (const std::string& folder : {gadget, strings, configuration + "/" + kStrings, function, gadget + "/os_desc"})
         TRY(make_folders(folder));
     // A board that has a supply of its own, whatever this port gives: a hub without one takes it, too.
     const std::pair<std::string, std::string> values[] = {
@@ -217,10 +216,9 @@ std::string UsbGadget::bound_to() const
     return line ? std::string(line->view()) : std::string();
 }
 
-bool UsbGadget::is_bound() const noexcept
+bool controller_there(const GadgetPlaces& places, const char* controller) noexcept
 {
-    const auto line = read_line(JoinedPath("%s/usb_gadget/dicot/UDC", places_.config.c_str()).c_str());
-    return line && !line->empty();
+    return ::access(JoinedPath("%s/%s", places.controllers.c_str(), controller).c_str(), F_OK) == 0;
 }
 
 std::string controller_state(const GadgetPlaces& places, const std::string& controller)

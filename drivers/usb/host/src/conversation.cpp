@@ -31,6 +31,7 @@ Status Conversation::command(std::uint16_t operation, std::span<const std::uint3
     at_ = filled_ = 0;
     ended_ = false;
     data_left_ = 0;
+    ended_early_ = false;
     response_ = 0;
     operation_ = operation;
     transaction_ = next_;
@@ -101,9 +102,18 @@ Result<std::uint64_t> Conversation::await_data(std::size_t expected, std::uint64
     deadline_us_ += static_cast<std::int64_t>(data_left_) * 1000 / kSlowestBytesPerMs;
     // Some devices send the header in a packet of its own.
     if (ended_ && held().size() < data_left_ && !held().empty())
-        return failure(Fault::kBadData, "the device announced %u bytes and sent %zu", length,
-                       held().size() + kHeaderBytes);
+        return cut_short();
     return data_left_;
+}
+
+Status Conversation::cut_short()
+{
+    const std::uint64_t missing = data_left_ - held().size();
+    at_ = filled_;
+    data_left_ = 0;
+    ended_early_ = true;
+    return failure(Fault::kBadData, "the device sent %llu bytes less than it announced",
+                   static_cast<unsigned long long>(missing));
 }
 
 Result<std::size_t> Conversation::take(std::span<std::byte> into)
@@ -115,8 +125,7 @@ Result<std::size_t> Conversation::take(std::span<std::byte> into)
             const auto rest = static_cast<std::size_t>(std::min<std::uint64_t>(data_left_, room_bytes_));
             TRY(fill(rest));
             if (ended_ && held().size() < data_left_)
-                return failure(Fault::kBadData, "the device sent %llu bytes less than it announced",
-                               static_cast<unsigned long long>(data_left_ - held().size()));
+                return cut_short();
         }
         const auto part = held().first(std::min(held().size(), wanted - got));
         std::memcpy(into.data() + got, part.data(), part.size());

@@ -32,6 +32,9 @@ public:
     Result<std::uint64_t> await_data(std::size_t expected, std::uint64_t most);
     /// The next bytes of the data, all of `into`, or those that are left.
     Result<std::size_t> take(std::span<std::byte> into);
+    /// await_data() or take() failed because the data ended early, and not the transaction: finish() has what the
+    /// device says of it.
+    bool ended_early() const noexcept { return ended_early_; }
     std::uint64_t data_left() const noexcept { return data_left_; }
     /// The response code; the data must have been taken.
     Result<std::uint16_t> finish();
@@ -42,6 +45,7 @@ private:
     Status fill(std::size_t ask);
     Status fill_container(std::size_t ask);
     Status read_response();
+    Status cut_short();
     std::span<const std::byte> held() const noexcept { return {room_.get() + at_, filled_ - at_}; }
 
     UsbPipe& pipe_;
@@ -54,6 +58,7 @@ private:
     std::uint32_t next_ = 0, transaction_ = 0;
     std::uint16_t operation_ = 0;
     std::uint64_t data_left_ = 0;
+    bool ended_early_ = false;
     std::int64_t deadline_us_ = 0;
     std::uint16_t response_ = 0; ///< 0: not here yet
 };

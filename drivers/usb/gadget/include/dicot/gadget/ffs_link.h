@@ -29,21 +29,21 @@ struct CableCounts
     std::atomic<std::uint64_t> events_dropped{0};
 };
 
-/// Transfers are asynchronous (AIO): two parts are on their way to the host at once, out of the caller's memory, and all
-/// waits are for an eventfd, so that nothing is stuck in the kernel. A thread of its own answers endpoint 0, whatever
-/// the responder is doing. All memory is taken by open(). Source: Linux, Documentation/usb/functionfs.rst; USB Still Image
-/// Capture Device Definition 1.0.
+/// Transfers are asynchronous (AIO): two parts are on their way to the host at once, out of the caller's memory, and
+/// all waits are for an eventfd, so that nothing is stuck in the kernel. A thread of its own answers endpoint 0,
+/// whatever the responder is doing. All memory is taken by open(). Source: Linux, Documentation/usb/functionfs.rst; USB
+/// Still Image Capture Device Definition 1.0.
 class FfsLink final : public mtp::DeviceLink
 {
 public:
     static constexpr std::size_t kMostPartBytes = 262'144; ///< of one send()
-    static constexpr int kEvents = 8;                  ///< on their way at once
+    static constexpr int kEvents = 8;                      ///< on their way at once
 
     struct Rules
     {
-        const char* mount = nullptr;  ///< of FunctionFS
-        FunctionRef<bool()> goes_on;  ///< false: everything that waits ends. Asked each second and after each signal
-        int forgotten_ms = 500;       ///< a host that asks anew and takes nothing for so long has given its transfer up
+        const char* mount = nullptr; ///< of FunctionFS
+        FunctionRef<bool()> goes_on; ///< false: everything that waits ends. Asked each second and after each signal
+        int forgotten_ms = 500;      ///< a host that asks anew and takes nothing for so long has given its transfer up
     };
     /// Hands the kernel our descriptors; UsbGadget::bind() comes next. Fault::kUnavailable: not mounted, not this
     /// user's, another process serves; kOsError.
@@ -52,8 +52,8 @@ public:
     FfsLink& operator=(const FfsLink&) = delete;
     ~FfsLink() override;
 
-    /// Until a computer has configured us; what was under way with the last one is forgotten. Fault::kTryAgain: none has
-    /// in that time; kUnavailable: an end is wanted.
+    /// Until a computer has configured us; what was under way with the last one is forgotten. Fault::kTryAgain: none
+    /// has in that time; kUnavailable: an end is wanted.
     Status await_host(int patience_ms);
 
     Result<std::size_t> receive(std::span<std::byte> into, int patience_ms) override;

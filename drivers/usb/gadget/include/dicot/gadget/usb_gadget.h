@@ -45,8 +45,8 @@ public:
     /// what to do about it.
     Result<std::string> controller(const std::string& wanted) const;
 
-    /// Root's part. Loads libcomposite and mounts configfs where they are missing; makes the gadget, unbound, and mounts
-    /// its FunctionFS, both to be used by `user`. Whoever serves must have ended. Fault::kUnavailable: no kernel
+    /// Root's part. Loads libcomposite and mounts configfs where they are missing; makes the gadget, unbound, and
+    /// mounts its FunctionFS, both to be used by `user`. Whoever serves must have ended. Fault::kUnavailable: no kernel
     /// support, not root; kOsError.
     Status prepare(const GadgetWords& words, uid_t user, gid_t group);
     /// The folder of the gadget alone: no mount, no owner.
@@ -55,18 +55,18 @@ public:
     Status remove();
     bool prepared() const; ///< FunctionFS is mounted
 
-    /// From now on the computer sees it. The link must be open: FunctionFS has its descriptors. Fault::kUnavailable: the
-    /// controller is another gadget's, or gone; not prepared for this user. No heap.
+    /// From now on the computer sees it. The link must be open: FunctionFS has its descriptors. Fault::kUnavailable:
+    /// the controller is another gadget's, or gone; not prepared for this user. No heap.
     Status bind(const char* controller) noexcept;
     /// The computer sees a pulled cable. No heap.
     Status unbind() noexcept;
-    std::string bound_to() const;   ///< empty: to none
-    bool is_bound() const noexcept; ///< to any; no heap
+    std::string bound_to() const; ///< empty: to none
 
 private:
     GadgetPlaces places_;
 };
 
+bool controller_there(const GadgetPlaces& places, const char* controller) noexcept; ///< no heap
 /// Of a controller as sysfs has it: "not attached", "configured", "suspended"; "" if it is not there.
 std::string controller_state(const GadgetPlaces& places, const std::string& controller);
 std::string controller_speed(const GadgetPlaces& places, const std::string& controller); ///< "high-speed"

@@ -92,6 +92,7 @@ private:
     struct Request;
     struct Answer;
 
+    Status hear(Answer& answer);
     Status say(const Request& request, Answer& answer);
     Status ask(const Request& request, Answer& answer);
     Status ask_well(const Request& request, Answer& answer);
