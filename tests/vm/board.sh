@@ -2,6 +2,10 @@
 
 # Three snapshots of 1.2 MiB with pictures and cloud in $work/store/board, as slots of a rehearsal made them.
 make_store() {
+    (
+        flock 9
+        quietly cmake --build --preset release --target dicot
+    ) 9>.build/vm.lock
     rm -rf "${work:?}/store" "$work/pictures" "$work/drawn"
     mkdir -p "$work/store" "$work/pictures/left" "$work/pictures/right"
     pair=${DICOT_DATA_DIR:-../shared/data}/plants/aloe-third

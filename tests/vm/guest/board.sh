@@ -3,8 +3,9 @@
 gadgets=/sys/kernel/config/usb_gadget
 export SYSTEMD_IGNORE_CHROOT=1
 
-figure() { echo "dicot-vm: figure $*"; }
-uptime_ms() { read -r up _ </proc/uptime; echo "${up%.*}${up#*.}0"; }
+# Seen, although what a judged command prints is not.
+exec 4>&1
+figure() { echo "dicot-vm: figure $*" >&4; }
 
 # --- the board
 store() { # folder to be copied: complete snapshots
@@ -41,9 +42,9 @@ told_to() { # words
 }
 serving() { told_to 'gadget up'; }
 memory_kib() { awk '/^Private_Dirty:/ { print $2 }' "/proc/$(serving)/smaps_rollup"; }
-# The store as others see it: what is complete.
+# The store as others see it: what is complete, but for the board's own note of who has it.
 shown() { # store, its device if not "board"
-    (cd "$1/${2:-board}" && find . -path './[12]*' -type f -exec sha256sum '{}' + | sort -k 2)
+    (cd "$1/${2:-board}" && find . -path './[12]*' -type f ! -name PULLED -exec sha256sum '{}' + | sort -k 2)
 }
 
 # --- another device: umtp-responder with a folder of its own
@@ -58,7 +59,7 @@ other_up() { # folder
         echo responder >strings/0x409/product
         [ -e configs/c.1/ffs.other ] || ln -s functions/ffs.other configs/c.1/
     )
-    mountpoint -q /dev/ffs-mtp || mount -t functionfs other /dev/ffs-mtp || return
+    grep -q " /dev/ffs-mtp " /proc/mounts || mount -t functionfs other /dev/ffs-mtp || return
     sed "s,^storage.*,storage \"$1\" \"other\" \"ro\"," /etc/umtprd/umtprd.conf >umtprd.conf
     umtprd -conf /tmp/umtprd.conf >>/out/umtprd.log 2>&1 &
     other=$!
@@ -89,10 +90,11 @@ nothing_half() { # archive
 told() { # key: of the last pull --json
     sed -n "s/.*\"$1\": *\"\{0,1\}\([^\",]*\).*/\1/p" pull.json | head -n 1
 }
+# All: what another archive has had already, too.
 pull() { # archive, words
     archive=$1
     shift
-    timeout 300 dicot pull "$archive" --json "$@" >pull.json 2>pull.log
+    timeout 300 dicot pull "$archive" --all --json "$@" >pull.json 2>pull.log
     code=$?
     cat pull.json pull.log >>/out/pull.log
     [ $code = 0 ] || cat pull.json pull.log
