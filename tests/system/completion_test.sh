@@ -72,5 +72,5 @@ same "after a flag no value is expected" "$checkout/LICENSE" "$(completed info -
 
 same "the manual page has every command" "$each" "$(
     sed -n '/^\.SH COMMANDS/,/^\.SH EXAMPLES/p' "$checkout/toolchain/package/dicot.1" | grep '^\.B' |
-        grep -oE 'dicot [a-z]+( [a-z]+)?' | sed 's/^dicot //' | sort)"
+        tr -d '\134' | grep -oE 'dicot [a-z]+( [a-z-]+)?' | sed 's/^dicot //' | sort)"
 exit $failed

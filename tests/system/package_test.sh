@@ -72,10 +72,13 @@ same "libc and libstdc++ are asked for in a version" "2" \
 
 same "the configuration alone is a conffile" /etc/dicot/dicot.toml "$(cat "$root/DEBIAN/conffiles")"
 same "files, modes and owners" "-rw-r--r-- root/root ./etc/dicot/dicot.toml
+-rw-r--r-- root/root ./lib/systemd/system/dicot-clock.path
+-rw-r--r-- root/root ./lib/systemd/system/dicot-clock.service
 -rw-r--r-- root/root ./lib/systemd/system/dicot-power-off.path
 -rw-r--r-- root/root ./lib/systemd/system/dicot-power-off.service
 -rw-r--r-- root/root ./lib/systemd/system/dicot.service
 -rw-r--r-- root/root ./lib/udev/rules.d/60-dicot.rules
+-rw-r--r-- root/root ./lib/udev/rules.d/61-dicot-computer.rules
 -rw-r--r-- root/root ./usr/lib/sysusers.d/dicot.conf
 -rw-r--r-- root/root ./usr/lib/tmpfiles.d/dicot.conf
 -rw-r--r-- root/root ./usr/share/bash-completion/completions/dicot
@@ -113,20 +116,31 @@ for section, keys in sorted(json.load(sys.stdin)["sections"].items()):
 unit=$root/lib/systemd/system/dicot.service
 same "the service is the user that sysusers makes" "$(sed -n 's/^User=//p' "$unit")" \
     "$(sed -n 's/^u \([a-z]*\) .*/\1/p' "$root/usr/lib/sysusers.d/dicot.conf")"
-same "nothing is for everybody" "" "$(grep -nE 'MODE="[0-7]*[1-7]"' "$root/lib/udev/rules.d/60-dicot.rules" || true)"
+same "nothing is for everybody" "" "$(grep -nE 'MODE="[0-7]*[1-7]"' "$root"/lib/udev/rules.d/*.rules || true)"
 request=$(sed -n 's/^PathExists=//p' "$root/lib/systemd/system/dicot-power-off.path")
 judge "the request to power off is the one that the program makes" \
     "$(grep -rqF "\"$request\"" "$checkout/platform/app/power"; echo $?)"
 
+offer=$(sed -n 's/^PathExists=//p' "$root/lib/systemd/system/dicot-clock.path")
+judge "the offer of a time is the one that the program makes" "$(grep -rqF "\"$offer\"" "$checkout/platform/app/usb"; echo $?)"
+rule=$(grep -v '^#' "$root/lib/udev/rules.d/61-dicot-computer.rules")
+device=$checkout/drivers/usb/gadget/include/dicot/gadget/usb_gadget.h
+for word in kVendor:idVendor kProduct:idProduct kManufacturer:manufacturer; do
+    value=$(sed -n "s/.*${word%:*} = \(0x\|\"\)\([a-z0-9]*\)\"*;.*/\2/p" "$device")
+    judge "the computer's rule is for our ${word#*:}" \
+        "$([ -n "$value" ] && echo "$rule" | grep -qF "ATTR{${word#*:}}==\"$value\""; echo $?)"
+done
+
 if command -v systemd-analyze >/dev/null; then
     mkdir -p "$root/bin" "$root/etc/systemd/system"
     # Programs and pages of the machine itself are not in this root.
-    for unit in dicot.service dicot-power-off.path dicot-power-off.service; do
-        sed -e '/^Documentation=/d' -e 's,^ExecStart=.*,ExecStart=/bin/true,' "$root/lib/systemd/system/$unit" \
+    for unit in dicot.service dicot-power-off.path dicot-power-off.service dicot-clock.path dicot-clock.service; do
+        sed -e '/^Documentation=/d' -e 's,^\(ExecStart[a-zA-Z]*\)=.*,\1=/bin/true,' "$root/lib/systemd/system/$unit" \
             >"$work/$unit"
     done
     same "systemd understands the units" "" \
-        "$(systemd-analyze verify "$work/dicot.service" "$work/dicot-power-off.path" "$work/dicot-power-off.service" 2>&1 |
+        "$(systemd-analyze verify "$work/dicot.service" "$work/dicot-power-off.path" "$work/dicot-power-off.service" \
+            "$work/dicot-clock.path" "$work/dicot-clock.service" 2>&1 |
             grep -F dicot || true)"
     exposure=$(systemd-analyze security --offline=true "$work/dicot.service" |
         sed -n 's/.*exposure level for dicot.service: \([0-9]*\)\.\([0-9]\).*/\1\2/p')

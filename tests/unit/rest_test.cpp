@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <optional>
 #include <random>
@@ -81,6 +82,7 @@ public:
             on_wake();
         return Slept{asleep_us, woken_after_us ? "eth0" : "rtc"};
     }
+    bool computer_is_there() noexcept override { return true_us_ < kNoon + computer_us; }
     void pass(std::int64_t us) noexcept { true_us_ += us; }
 
     std::int64_t booted_us = kNoon - 10 * kHour;
@@ -91,6 +93,7 @@ public:
     std::int64_t resume_us = 2 * kSecond;
     std::optional<std::int64_t> woken_after_us; ///< by something else
     std::function<void()> on_wake;
+    std::int64_t computer_us = 0; ///< how long from noon on there is one at the cable
 
     std::optional<std::int64_t> alarm_us;
     int suspends = 0;
@@ -117,6 +120,49 @@ protected:
     DrawnBoard board_;
     LeadTime lead_;
 };
+
+TEST_F(RestTest, NeitherSleepsNorIsPoweredOffWhileAComputerIsAtTheCable)
+{
+    for (const Between way : {Between::kSuspend, Between::kOff}) {
+        DrawnBoard board;
+        board.computer_us = 5 * kMinute / 2;
+        LeadTime lead;
+        Rest rest(board, lead, rules(way));
+        int visits = 0;
+        while (board.computer_is_there()) {
+            const Woken woken = rest.until({kNoon + kHour, 1}, [] { return true; });
+            EXPECT_EQ(woken.way, Between::kIdle);
+            EXPECT_EQ(woken.reason, WakeReason::kTime);
+            ++visits;
+        }
+        EXPECT_EQ(visits, 3) << "looked at each minute";
+        EXPECT_EQ(board.suspends, 0);
+        EXPECT_FALSE(board.alarm_us);
+        EXPECT_EQ(rest.way_to(kNoon + kHour), way) << "it has gone";
+    }
+}
+
+TEST(LinuxBoard, SeesAComputerThatHasConfiguredItsGadget)
+{
+    TempFolder sys;
+    const auto say = [&](const std::string& file, const std::string& text) {
+        const std::string path = sys.path(file);
+        std::filesystem::create_directories(std::filesystem::path(path).parent_path());
+        std::ofstream(path) << text;
+    };
+    LinuxBoard board("/dev/none", sys.path("").c_str());
+    EXPECT_FALSE(board.computer_is_there()) << "no gadget";
+    say("kernel/config/usb_gadget/dicot/UDC", "\n");
+    EXPECT_FALSE(board.computer_is_there()) << "not bound";
+    say("kernel/config/usb_gadget/dicot/UDC", "fe980000.usb\n");
+    EXPECT_FALSE(board.computer_is_there()) << "no such controller";
+    say("class/udc/fe980000.usb/state", "not attached\n");
+    EXPECT_FALSE(board.computer_is_there());
+    say("class/udc/fe980000.usb/state", "configured\n");
+    EXPECT_TRUE(board.computer_is_there());
+    say("class/udc/fe980000.usb/state", "suspended\n");
+    EXPECT_FALSE(board.computer_is_there()) << "the computer sleeps";
+}
 
 TEST_F(RestTest, IdlesUntilTheCamerasHaveTimeToWarmUp)
 {

@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostOffered = 1'000'000; ///< two years of a snapshot a minute
 constexpr int kMostFailuresInARow = 8;
+constexpr const char* kStopped = "stopped; the next pull goes on there";
 
 Status ready_folder(const std::string& archive, const std::string& board)
 {
@@ -120,7 +121,10 @@ Status BoardPull::list()
         }
         return !StopRequest::asked();
     }));
-    return wrong;
+    TRY(wrong);
+    if (StopRequest::asked()) // half a list is none
+        return failure(Fault::kTryAgain, "%s", kStopped);
+    return {};
 }
 
 bool BoardPull::is_wanted(const OfferedSnapshot& offered)
@@ -147,7 +151,7 @@ Status BoardPull::take_all()
     Status status;
     for (std::size_t k = 0; k < wanted_.size() && status.ok(); ++k) {
         if (StopRequest::asked())
-            status = failure(Fault::kTryAgain, "stopped; the next pull goes on there");
+            status = failure(Fault::kTryAgain, "%s", kStopped);
         else
             status = take_one(wanted_[k], line);
     }
@@ -169,7 +173,7 @@ Status BoardPull::take_one(const OfferedSnapshot& offered, int line)
                        static_cast<long long>(report_.fresh + report_.there), wanted_.size(), taken.status().message());
     TRY(taken.status());
     if (StopRequest::asked() && taken.value().how == Took::kUnreadable)
-        return failure(Fault::kTryAgain, "stopped; the next pull goes on there");
+        return failure(Fault::kTryAgain, "%s", kStopped);
     screen_.one_done(line);
     count(offered, taken.value());
     failures_ = taken.value().how == Took::kUnreadable ? failures_ + 1 : 0;

@@ -158,6 +158,7 @@ TEST_F(MtpBoard, GivesPartsWithTheirSize)
     part(300'000, 10, 0);
     part(400'000, 10, 0);
     part(0, 0, 0);
+    EXPECT_EQ(responder.counts().objects_sent, 3u) << "a file is sent when its end is";
 }
 
 TEST_F(MtpBoard, ReachesBeyondFourGib)

@@ -24,6 +24,8 @@ public:
     /// Numbers begin anew: the next transaction has number 0, as OpenSession wants it.
     void begin_session() noexcept { next_ = 0; }
 
+    void be_patient(int patience_ms) noexcept { patience_ms_ = patience_ms; }
+
     Status command(std::uint16_t operation, std::span<const std::uint32_t> parameters);
     /// The data phase to the device; no longer than the room.
     Status give(std::span<const std::byte> payload);

@@ -135,6 +135,8 @@ Responder::Reply Responder::send_part(const Object& object, std::uint64_t offset
     }
     if (!exchange_.end_data())
         return {response::kIncompleteTransfer, {}};
+    if (offset + bytes == object.bytes && (bytes > 0 || object.bytes == 0))
+        ++counts_.objects_sent;
     return {response::kOk, static_cast<std::uint32_t>(bytes)};
 }
 
@@ -145,8 +147,6 @@ Responder::Reply Responder::get_object(const Block& command)
         return {code_of(object.status()), {}};
     Reply reply = send_part(object.value(), 0, object.value().bytes);
     reply.parameter.reset();
-    if (reply.code == response::kOk)
-        ++counts_.objects_sent;
     return reply;
 }
 

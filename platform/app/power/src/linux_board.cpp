@@ -1,5 +1,6 @@
 #include "dicot/power/linux_board.h"
 
+#include "dicot/os/small_file.h"
 #include "dicot/os/stage_watch.h"
 
 namespace dicot::app {
@@ -42,6 +43,15 @@ Result<Slept> LinuxBoard::suspend() noexcept
     if (!slept.ok())
         return slept.status();
     return slept.value();
+}
+
+bool LinuxBoard::computer_is_there() noexcept
+{
+    const auto controller = read_line(JoinedPath{"%s/kernel/config/usb_gadget/dicot/UDC", sys_.c_str()}.c_str());
+    if (!controller || controller->empty())
+        return false;
+    const auto state = read_line(JoinedPath{"%s/class/udc/%s/state", sys_.c_str(), controller->c_str()}.c_str());
+    return state && state->view() == "configured";
 }
 
 } // namespace dicot::app

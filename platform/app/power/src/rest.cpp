@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::int64_t kNearAlarmUs = 180'000'000; ///< a boot so near to the alarm is its work
 constexpr std::int64_t kGraceUs = 600'000'000;     ///< for who switched the board on, or started the service, to log in
+constexpr std::int64_t kVisitUs = 60'000'000;      ///< how often it is looked whether a computer is still there
 constexpr std::int64_t kFreshBootUs = 180'000'000;
 
 std::optional<RestMark> read_mark(const char* path) noexcept
@@ -116,6 +117,16 @@ std::int64_t Rest::begin_us(std::int64_t due_us) const noexcept
     return due_us - lead_.of(LeadPart::kCameras);
 }
 
+std::int64_t Rest::stays_on_until_us() noexcept
+{
+    if (rules_.between == Between::kIdle)
+        return 0;
+    const std::int64_t up_us = board_.boottime_us();
+    if (rules_.between == Between::kOff && up_us < on_until_us_)
+        return on_until_us_;
+    return board_.computer_is_there() ? up_us + kVisitUs : 0;
+}
+
 Between Rest::way_to(std::int64_t due_us) noexcept
 {
     const std::int64_t pause_us = begin_us(due_us) - board_.now_us();
@@ -123,7 +134,7 @@ Between Rest::way_to(std::int64_t due_us) noexcept
     const std::int64_t least_us = rules_.between == Between::kOff
                                       ? std::max(rules_.least_rest_us, 2 * lead_.of(LeadPart::kBoot))
                                       : rules_.least_rest_us + lead_.of(LeadPart::kResume);
-    if (rules_.between == Between::kOff && board_.boottime_us() < on_until_us_)
+    if (stays_on_until_us() != 0)
         return Between::kIdle;
     return pause_us >= least_us ? rules_.between : Between::kIdle;
 }
@@ -131,12 +142,13 @@ Between Rest::way_to(std::int64_t due_us) noexcept
 Woken Rest::until(const RestWish& wish, FunctionRef<bool()> step) noexcept
 {
     Woken woken;
-    const Between way = way_to(wish.due_us);
-    const std::int64_t grace_us = on_until_us_ - board_.boottime_us();
-    if (rules_.between == Between::kOff && grace_us > 0 && board_.now_us() + grace_us < begin_us(wish.due_us)) {
-        idle(board_.now_us() + grace_us, step, woken); // and then it is asked again
+    const std::int64_t on_until_us = stays_on_until_us();
+    const std::int64_t on_us = on_until_us == 0 ? 0 : on_until_us - board_.boottime_us();
+    if (on_us > 0 && board_.now_us() + on_us < begin_us(wish.due_us)) {
+        idle(board_.now_us() + on_us, step, woken); // and then it is asked again
         return woken;
     }
+    const Between way = way_to(wish.due_us);
     Next next = Next::kIdle;
     if (way == Between::kSuspend)
         next = suspend(begin_us(wish.due_us), step, woken);

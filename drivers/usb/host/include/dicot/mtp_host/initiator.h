@@ -54,8 +54,9 @@ public:
     struct Patience
     {
         int answer_ms = kPatienceMs;
-        int drain_ms = 200; ///< for what is left of a transaction that broke
-        int pause_ms = 100; ///< between two questions whether a reset device is ready
+        int drain_ms = 200;   ///< for what is left of a transaction that broke
+        int pause_ms = 100;   ///< between two questions whether a reset device is ready
+        int open_ms = 15'000; ///< for OpenSession: who is silent then is not there
     };
 
     explicit Initiator(UsbPipe& pipe, const Patience& patience);
@@ -97,6 +98,7 @@ private:
     Status ask(const Request& request, Answer& answer);
     Status ask_well(const Request& request, Answer& answer);
     Status open_session();
+    Status say_open_session();
     Status recover(const Status& why);
     Status await_ready();
     Status learn();

@@ -26,7 +26,8 @@ struct DeviceWords
 /// What it did so far, for status and log.
 struct ResponderCounts
 {
-    std::uint64_t sessions = 0, requests = 0, refused = 0, cancelled = 0, objects_sent = 0, bytes_sent = 0;
+    std::uint64_t sessions = 0, requests = 0, refused = 0, cancelled = 0, bytes_sent = 0;
+    std::uint64_t objects_sent = 0; ///< times that a file's end was sent, whole or in parts
     std::uint64_t marked = 0;
     bool session_open = false;
 };

@@ -18,6 +18,8 @@ public:
     Status wake_after(std::int64_t after_s) noexcept override;
     Status no_alarm() noexcept override;
     Result<Slept> suspend() noexcept override;
+    /// What the USB device controller says that the gadget "dicot" is bound to.
+    bool computer_is_there() noexcept override;
 
 private:
     Rtc rtc_;

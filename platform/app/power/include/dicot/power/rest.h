@@ -71,6 +71,8 @@ public:
     virtual Status wake_after(std::int64_t after_s) noexcept = 0; ///< the alarm
     virtual Status no_alarm() noexcept = 0;
     virtual Result<Slept> suspend() noexcept = 0;
+    /// A computer is at the cable and awake: it would lose the board in the middle of a file.
+    virtual bool computer_is_there() noexcept { return false; }
 };
 
 /// One rest after the other. Nothing that fails ends the series: what cannot suspend or be powered off idles, and says
@@ -84,10 +86,11 @@ public:
     /// `way` is kOff if the board was off by its own wish; `trouble`: the mark could not be written.
     Woken begun() noexcept;
 
-    /// A start that is not the alarm's work is somebody's: for ten minutes after it the board is not powered off; such
-    /// a rest ends early, as kTime. Else: rests until it is time to begin the slot, begin_us(), or until something else
-    /// comes up. `step` is called each `step_us` and after each signal: whether to go on. Where the board is powered
-    /// off, it returns with kAsked alone, as the system stops its services; or as idle, if nobody answers the request.
+    /// A start that is not the alarm's work is somebody's: for ten minutes after it the board is not powered off. While
+    /// a computer is at the cable it neither sleeps nor is powered off. Such a rest ends early, as kTime. Else: rests
+    /// until it is time to begin the slot, begin_us(), or until something else comes up. `step` is called each
+    /// `step_us` and after each signal: whether to go on. Where the board is powered off, it returns with kAsked alone,
+    /// as the system stops its services; or as idle, if nobody answers the request.
     Woken until(const RestWish& wish, FunctionRef<bool()> step) noexcept;
 
     /// The way that a pause would go that begins now.
@@ -101,6 +104,8 @@ private:
         kIdle, ///< the rest of the pause is idled
         kOver, ///< the pause is over: `reason` says why
     };
+    /// By boottime_us(): until then the board neither sleeps nor is powered off; 0: it may.
+    std::int64_t stays_on_until_us() noexcept;
     void idle(std::int64_t until_us, FunctionRef<bool()> step, Woken& woken) noexcept;
     Next suspend(std::int64_t begin_us, FunctionRef<bool()> step, Woken& woken) noexcept;
     Next power_off(const RestWish& wish, FunctionRef<bool()> step, Woken& woken) noexcept;
