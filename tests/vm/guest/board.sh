@@ -1,5 +1,5 @@
 # A board and a computer in one machine, and the cable between them (dummy_hcd): to be sourced by stories that clients.sh tells.
-# The board's store is /tmp/clouds, its device "board"; the computer is bus 1.
+# The board's store is clouds, its device "board"; the computer is bus 1.
 gadgets=/sys/kernel/config/usb_gadget
 export SYSTEMD_IGNORE_CHROOT=1
 
@@ -9,23 +9,23 @@ figure() { echo "dicot-vm: figure $*" >&4; }
 
 # --- the board
 store() { # folder to be copied: complete snapshots
-    rm -rf /tmp/clouds
-    cp -R "$1" /tmp/clouds && chown -R dicot:dicot /tmp/clouds
+    rm -rf clouds
+    cp -R "$1" clouds && chown -R dicot:dicot clouds
 }
-cat >/tmp/board.toml <<'END_OF_FILE'
+cat >board.toml <<END_OF_FILE
 [output]
 device = "board"
-folder = "/tmp/clouds"
+folder = "$PWD/clouds"
 [usb]
 serial = "b0a2d"
 END_OF_FILE
 up() { # words for dicot gadget up
-    dicot gadget up --config /tmp/board.toml "$@" >>/out/gadget.log 2>&1 &
+    dicot gadget up --config board.toml "$@" >>/out/gadget.log 2>&1 &
     board=$!
     await 20 plugged_in || { tail -n 5 /out/gadget.log; return 1; }
 }
 down() {
-    dicot gadget down --config /tmp/board.toml
+    dicot gadget down --config board.toml
     result=$?
     wait "$board"
     return $result
@@ -61,7 +61,7 @@ other_up() { # folder
     )
     grep -q " /dev/ffs-mtp " /proc/mounts || mount -t functionfs other /dev/ffs-mtp || return
     sed "s,^storage.*,storage \"$1\" \"other\" \"ro\"," /etc/umtprd/umtprd.conf >umtprd.conf
-    umtprd -conf /tmp/umtprd.conf >>/out/umtprd.log 2>&1 &
+    umtprd -conf "$PWD/umtprd.conf" >>/out/umtprd.log 2>&1 &
     other=$!
     sleep 1
     plug other
@@ -75,7 +75,7 @@ other_down() {
 
 # --- the computer
 same() { # archive, device if not "board": has the store's complete snapshots, and nothing else in their place
-    shown /tmp/clouds >wanted && shown "$1" "${2:-board}" >found && diff wanted found && [ -s wanted ] &&
+    shown clouds >wanted && shown "$1" "${2:-board}" >found && diff wanted found && [ -s wanted ] &&
         (cd "$1/${2:-board}" && find . -name SHA256SUMS -path './[12]*' | while read -r sums; do
             (cd "$(dirname "$sums")" && sha256sum --quiet -c SHA256SUMS) || exit 1
         done)

@@ -41,7 +41,7 @@ counted_pull() { # archive
 rm -rf one && mkdir -p one/board
 cp -R "$(ls -d /vm/store/board/[12]* | tail -n 1)" one/board/
 large=$(du -bs one/board/*/* | cut -f1)
-down && store /tmp/one && up || failed cut "no board with one snapshot"
+down && store one && up || failed cut "no board with one snapshot"
 counted_pull whole && whole=$came
 figure "a snapshot of $large bytes: $whole came over"
 resumed=''
@@ -122,7 +122,7 @@ judge new.during_a_pull new_during
 pruned_during() {
     rm -rf pruned
     amid 300000 stop pruned
-    sed 's/^\[output\]/&\nprune = "any"/' board.toml >prune.toml
+    sed 's/^\[output\]/&\nprune = "all"/' board.toml >prune.toml
     dicot prune --older-than 1 --config prune.toml
     go_on
     ended

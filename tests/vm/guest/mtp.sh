@@ -57,7 +57,7 @@ camera_copies() {
 judge gphoto2.copies camera_copies
 
 # --- the desktop
-export XDG_RUNTIME_DIR=/run/user/0 HOME=/tmp
+export XDG_RUNTIME_DIR=/run/user/0 HOME=$PWD
 mkdir -p $XDG_RUNTIME_DIR
 /usr/lib/aarch64-linux-gnu/glib-2.0/glib-compile-schemas /usr/share/glib-2.0/schemas
 cat >desktop.sh <<'END_OF_FILE'
@@ -97,7 +97,7 @@ judge gadget.counts eval 'dicot gadget status --config board.toml | tee /out/sta
 elsewhere 1
 qemu() { pull qemu --device qemu0 && same qemu elsewhere; }
 judge pull.qemu qemu
-umtp() { other_up /tmp/clouds && pull umtp --device 01234567 && same umtp; }
+umtp() { other_up "$PWD/clouds" && pull umtp --device 01234567 && same umtp; }
 judge pull.umtp umtp
 other_down
 at_once() { up && pull both && [ "$(grep -c '"exit_code": 0' pull.json)" = 2 ] && same both && same both elsewhere; }
@@ -126,7 +126,7 @@ speed() {
     up && fast && ours_ms=$best || { mtp-files; return 1; }
     judge_memory=$(memory_kib)
     down || return
-    other_up /tmp/clouds && fast && others_ms=$best || { tail -n 3 /out/umtprd.log; return 1; }
+    other_up "$PWD/clouds" && fast && others_ms=$best || { tail -n 3 /out/umtprd.log; return 1; }
     other_down
     figure "16 MiB: $ours_ms ms, umtp-responder $others_ms ms; ratio $((100 * others_ms / ours_ms)) %; the server holds $judge_memory KiB of its own"
     [ $((100 * others_ms / ours_ms)) -ge 80 ]
