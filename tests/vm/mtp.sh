@@ -16,4 +16,4 @@ make_store
 rm -rf "$work/elsewhere"
 mkdir "$work/elsewhere"
 cp -R "$work/store/board" "$work/elsewhere/elsewhere"
-run_board 400 --module fuse --module xhci-pci -- --qemu "-device qemu-xhci -device usb-mtp,rootdir=$work/elsewhere,desc=elsewhere,serial=qemu0"
+run_board 400 --module fuse --module xhci-pci -- --qemu "-device qemu-xhci -device usb-mtp,rootdir=$(realpath "$work")/elsewhere,desc=elsewhere,serial=qemu0"

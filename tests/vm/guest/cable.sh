@@ -51,6 +51,7 @@ each_64_kib() {
         rm -rf cut
         amid $at unbind cut
         ended
+        cut=$came
         [ "$code" != 0 ] || [ "$cut" -ge "$large" ] || { echo "cut at $cut: the pull says that it is done"; return 1; }
         nothing_half cut || { echo "cut at $cut: something half in its place"; return 1; }
         kept=$(du -bs cut/board/incoming/* 2>/dev/null | cut -f1)
@@ -58,7 +59,7 @@ each_64_kib() {
         resumed="$resumed $cut:${kept:-0}:$came"
         cuts=$((cuts + 1)) at=$((at + 65536))
     done
-    figure "the cable was pulled $cuts times"
+    figure "the cable was pulled $cuts times, behind$(echo "$resumed" | tr ' ' '\n' | sed -n 's/:.*//p' | tr '\n' ' ' | sed 's/^/ /')bytes"
     [ $cuts -ge 5 ]
 }
 judge cut.each_64_kib each_64_kib
