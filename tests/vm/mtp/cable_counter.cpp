@@ -20,7 +20,6 @@
 #include <csignal>
 #include <fcntl.h>
 #include <poll.h>
-#include <sched.h>
 #include <sys/ioctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -127,9 +126,6 @@ int main(int argc, char** argv)
         std::perror(argv[first + 1]);
         _exit(70);
     }
-    // Before whoever keeps the machine's one processor busy.
-    const sched_param before{1};
-    sched_setscheduler(0, SCHED_FIFO, &before);
     Count count;
     for (int status = 0;;) {
         pollfd events{bus, POLLIN, 0};
