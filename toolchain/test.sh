@@ -188,12 +188,12 @@ cross() {
 }
 
 # The cameras of tests/support before the kernel's own driver, then dicot's drivers, then a snapshot; the store on disks that lose
-# their power; the package in a whole Debian. A machine that does not boot is a failure.
+# their power; the board on a computer's cable; the package in a whole Debian. A machine that does not boot is a failure.
 vm() {
     # Each machine keeps one processor busy; the longest first.
-    printf '%s\n' months snap uvc v4l2 store selfcheck | xargs -P "$(nproc)" -I '{}' \
+    printf '%s\n' months snap cable uvc mtp v4l2 store selfcheck | xargs -P "$(nproc)" -I '{}' \
         sh -c "sh tests/vm/{}.sh >$logs/vm-{}.log 2>&1; echo \$? >$logs/vm-{}.code"
-    for machine in selfcheck v4l2 uvc snap store months; do
+    for machine in selfcheck v4l2 uvc snap store mtp cable months; do
         count_lines finished "$machine" || return
         missed=$(grep '^NOT RUN' "$logs/vm-$machine.log")
         [ -z "$missed" ] || not_run="${not_run}vm: $missed

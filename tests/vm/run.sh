@@ -2,11 +2,12 @@
 # Boots the virtual machine with an image of image.sh and judges what it reports.
 #
 #   sh tests/vm/run.sh IMAGE --timeout SECONDS [--out FOLDER] [--log FILE] [--disk FILE] [--logged-disk FILE] ...
-#                      [--own-clock TIME] [--cut WORDS]
+#                      [--own-clock TIME] [--cut WORDS] [--qemu WORDS] ...
 #
 # --own-clock  the machine's time, RTC and all, is not the world's: it begins at TIME (UTC, 2026-06-01T10:00:00), each instruction
 #              takes 8 ns of it, and while the machine has nothing to do it goes on at once to what comes next. So a minute of
 #              sleep costs nothing, and how busy the machine is that emulates makes no difference.
+# --qemu       words for the emulator, for a device that only one test has.
 # --cut        the power is cut as soon as a line "dicot-vm: WORDS" is there; that is then the end the machine has to come to.
 #
 # FOLDER gets what the script left in /out, FILE the serial console (by default IMAGE.log). The disks are /dev/vdb,
@@ -20,7 +21,7 @@ set -u
 
 image=${1:?run.sh: name the image}
 shift
-timeout_s='' out='' log=$image.log disks='' count=0 clock='' kernel_words='' flush='' end='done'
+timeout_s='' out='' log=$image.log disks='' count=0 clock='' kernel_words='' flush='' end='done' devices=''
 while [ $# -gt 1 ]; do
     case $1 in
         --timeout) timeout_s=$2 ;;
@@ -33,6 +34,7 @@ while [ $# -gt 1 ]; do
             kernel_words='nohz=off' flush=',cache.no-flush=on'
             ;;
         --cut) end=$2 ;;
+        --qemu) devices="$devices $2" ;;
         --disk)
             count=$((count + 1))
             disks="$disks -blockdev driver=file,filename=$2,node-name=disk$count$flush
@@ -69,12 +71,12 @@ complain() {
 disk=$(mktemp)
 trap 'rm -f "$disk"' EXIT
 truncate -s 256M "$disk"
-# shellcheck disable=SC2086 # $disks and $clock are lists of words; names with blanks or commas are not for it
+# shellcheck disable=SC2086 # $disks, $devices and $clock are lists of words; names with blanks or commas are not for it
 timeout --foreground --kill-after=5 "$timeout_s" qemu-system-aarch64 -M virt -cpu cortex-a72 -accel tcg -m 512 \
     -nodefaults -display none -nic none -no-reboot -serial stdio -pidfile "$log.pid" $clock \
     -kernel "$tree/vmlinuz" -initrd "$image" \
     -append "console=ttyAMA0 loglevel=3 panic=-1 oops=panic log_buf_len=2M systemd.show_status=0 $kernel_words" \
-    -drive "if=none,id=out,file=$disk,format=raw" -device virtio-blk-pci,drive=out $disks \
+    -drive "if=none,id=out,file=$disk,format=raw" -device virtio-blk-pci,drive=out $disks $devices \
     </dev/null >"$log.raw" 2>&1 &
 machine=$!
 while [ "$end" != 'done' ] && kill -0 $machine 2>/dev/null; do
