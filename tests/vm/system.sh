@@ -14,7 +14,7 @@ packages=base-files,base-passwd,bash,bsdutils,coreutils,dash,diffutils,findutils
 packages=$packages,login,mount,ncurses-bin,passwd,perl-base,sed,sysvinit-utils,tar,util-linux,dpkg,mawk
 packages=$packages,systemd,systemd-sysv,udev,kmod,usr-is-merged,util-linux-extra
 packages=$packages,libstdc++6,libdraco7,libpng16-16,libjpeg62-turbo,libyaml-0-2,libmd0,zlib1g,libusb-1.0-0,libsqlite3-0
-modules='virtio_pci virtio_blk ext4 vivid'
+modules='virtio_pci virtio_blk ext4 vivid dummy_hcd libcomposite usb_f_fs'
 disk_mib=512
 recipe="1 $release arm64 $packages $modules $disk_mib"
 

@@ -19,7 +19,7 @@
 namespace dicot {
 namespace {
 
-constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
+constexpr std::size_t kPieceBytes = std::size_t{64} << 10; ///< what a pulled cable costs at most
 
 class DiskArchive final : public BoardArchive
 {

@@ -1,5 +1,8 @@
-# The alarm of the board's clock switched it on: the slot of 12:30 is taken; then all that the months left is told.
+# The alarm of the board's clock switched it on: the slot of 12:30 is taken; then all that the months left is told, and taken home
+# over the cable.
 #expect off.alarm_woke off.slot_is_done series.each_slot_has_one_row series.as_expected series.verified service.ends_in_order
+#expect cable.shown_by_the_service cable.served_without_rights cable.pulled_by_a_user cable.marked cable.keeps_it_awake
+#expect cable.offered_time_is_taken
 . /run/vm/months.sh
 
 # It stays on this time.
@@ -28,3 +31,35 @@ as_expected() {
 }
 judge series.as_expected as_expected
 judge series.verified dicot verify --store "${clouds:?}"
+
+# --- the cable: a USB device port appears, and at its other end the same machine is a computer (dummy_hcd).
+modprobe dummy_hcd
+printf '\n[usb]\nexport = true\n' >>/etc/dicot/dicot.toml
+systemctl restart dicot
+shown() { dicot gadget status | tee status | grep -q configured; }
+judge cable.shown_by_the_service eval 'await 180 shown; cat status; shown'
+serves_without_rights() {
+    pid=$(dicot gadget status --json | sed -n 's/.*"pid": *\([0-9]*\).*/\1/p')
+    [ "$(stat -c %U "/proc/$pid")" = dicot ] && grep 'CapEff:[[:space:]]*0*$' "/proc/$pid/status"
+}
+judge cable.served_without_rights serves_without_rights
+pulled_by_a_user() {
+    mkdir -p /tmp/home && chown nobody /tmp/home
+    HOME=/tmp/home setpriv --reuid nobody --regid plugdev --clear-groups dicot pull /tmp/home/clouds && dicot archive check /tmp/home/clouds &&
+        diff -r -x BOARD -x LAST_PULL -x incoming /tmp/home/clouds/board "$clouds/board" >different
+    cat different
+    ! grep -vE "^Only in $clouds/board(: (catalogue.sqlite.*|incoming|leaving|quarantine|ballast|writing)|/.*: PULLED)\$" different
+}
+judge cable.pulled_by_a_user pulled_by_a_user
+judge cable.marked eval 'slots | grep -c "\"pulled\": *\"2" | grep -x 17'
+# Ten minutes for people, and five in which nobody answers a request to power off.
+judge cable.keeps_it_awake eval 'sleep 1000; shown && ! journalctl -b "_PID=$(process)" | grep "to power off"'
+time_is_taken() {
+    date -s '1970-01-01 02:00:00'
+    offer_s=$(date -u -d "${day}T18:00:00Z" +%s)
+    read -r up_s _ </proc/uptime
+    echo "${offer_s}000000 $(echo "$up_s" | tr -d .)0000" >offer
+    install -o dicot -g dicot -m 640 offer /run/dicot/offer && mv /run/dicot/offer /run/dicot/clock-offer
+    await 60 eval '[ "$(date -u +%F)" = "$day" ]'
+}
+judge cable.offered_time_is_taken time_is_taken

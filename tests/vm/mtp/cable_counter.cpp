@@ -8,9 +8,7 @@
 //
 // Tells on descriptor 3: "at BYTES PID" when that was done, "came BYTES" at the program's end. Its exit code is the
 // program's.
-#include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -48,28 +46,15 @@ static_assert(sizeof(Header) == 64);
 constexpr unsigned long kGet = _IOW(0x92, 10, Get);
 constexpr unsigned char kBulk = 3, kIn = 0x80;
 
-using Clock = std::chrono::steady_clock;
-
-/// A whole piece of a file is one transfer to the kernel, and is told of once it ended. What of it is over meanwhile is
-/// reckoned: dummy_hcd moves 13 packets of 512 bytes in each of a frame's eight parts.
+/// A piece of a file (64 KiB) is one transfer to the kernel, and is told of once it ended.
 struct Count
 {
-    static constexpr std::uint64_t kBytesPerMs = 512 * 13 * 8;
-
-    std::uint64_t over = 0, asked = 0;
-    Clock::time_point since;
+    std::uint64_t over = 0;
 
     void take(const Header& header)
     {
-        if (header.transfer != kBulk || (header.endpoint & kIn) == 0)
-            return;
-        if (header.type == 'S') {
-            asked = header.length;
-            since = Clock::now();
-        } else if (header.type == 'C') {
+        if (header.transfer == kBulk && (header.endpoint & kIn) != 0 && header.type == 'C')
             over += header.length;
-            asked = 0;
-        }
     }
     void look(int bus)
     {
@@ -78,12 +63,6 @@ struct Count
         const Get get{&header, data, sizeof data};
         while (ioctl(bus, kGet, &get) == 0)
             take(header);
-    }
-    std::uint64_t reckoned() const
-    {
-        const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - since).count();
-        return over +
-               (asked > 65536 ? std::min<std::uint64_t>(asked, static_cast<std::uint64_t>(ms) * kBytesPerMs) : 0);
     }
 };
 
@@ -131,10 +110,10 @@ int main(int argc, char** argv)
         pollfd events{bus, POLLIN, 0};
         poll(&events, 1, what.empty() ? 20 : 1);
         count.look(bus);
-        if (!what.empty() && count.reckoned() >= wanted) {
+        if (!what.empty() && count.over >= wanted) {
             if (!act(what, program))
                 return 70;
-            dprintf(3, "at %llu %d\n", static_cast<unsigned long long>(count.reckoned()), program);
+            dprintf(3, "at %llu %d\n", static_cast<unsigned long long>(count.over), program);
             what.clear();
         }
         if (waitpid(program, &status, WNOHANG) != program)
