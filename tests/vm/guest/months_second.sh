@@ -23,7 +23,8 @@ judge clock.passed_slot_has_row is_missed 12:00 'clock'
 
 # --- the board is powered off until 12:30: for ten minutes after a start by hand it stays on, and takes 12:20
 sed -i 's/^between = .*/between = "off"/' /etc/dicot/dicot.toml
-# systemd ends what runs when it powers off: this goes on until it has seen it.
+# systemd ends what runs when it powers off: this goes on until it has seen it. Ten idle minutes, and programs start slowly.
+usleep() { sleep 5; }
 trap '' TERM
 systemctl restart dicot
 alarm() { cat /sys/class/rtc/rtc0/wakealarm; }

@@ -34,6 +34,7 @@ judge series.verified dicot verify --store "${clouds:?}"
 
 # --- the cable: a USB device port appears, and at its other end the same machine is a computer (dummy_hcd).
 modprobe dummy_hcd
+sed -i 's/^between = .*/between = "suspend"/' /etc/dicot/dicot.toml
 printf '\n[usb]\nexport = true\n' >>/etc/dicot/dicot.toml
 systemctl restart dicot
 shown() { dicot gadget status | tee status | grep -q configured; }
@@ -52,8 +53,13 @@ pulled_by_a_user() {
 }
 judge cable.pulled_by_a_user pulled_by_a_user
 judge cable.marked eval 'slots | grep -c "\"pulled\": *\"2" | grep -x 17'
-# Ten minutes for people, and five in which nobody answers a request to power off.
-judge cable.keeps_it_awake eval 'sleep 1000; shown && ! journalctl -b "_PID=$(process)" | grep "to power off"'
+sleeps() { cat /sys/power/suspend_stats/success /sys/power/suspend_stats/fail; }
+keeps_it_awake() {
+    before=$(sleeps)
+    sleep 60
+    shown && [ "$(sleeps)" = "$before" ]
+}
+judge cable.keeps_it_awake keeps_it_awake
 time_is_taken() {
     date -s '1970-01-01 02:00:00'
     offer_s=$(date -u -d "${day}T18:00:00Z" +%s)
