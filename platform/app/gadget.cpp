@@ -36,7 +36,14 @@ Status prepare(const ServerWish& wish, const Words& words)
 
 Status down(const ServerWish& wish, const Words&)
 {
-    return take_gadget_down(wish.places);
+    const TakenDown down = TRY(take_gadget_down(wish.places));
+    if (down.server != 0)
+        std::printf("process %d served, and has ended\n", static_cast<int>(down.server));
+    std::printf("%s\n", down.gadget ? "the gadget is removed: no computer sees the clouds"
+                                    : "there was no gadget: no computer sees the clouds");
+    if (wish.config->usb.export_store)
+        std::printf("the service serves again once it is restarted: systemctl restart dicot\n");
+    return {};
 }
 
 Status tell(const ServerWish& wish, const Words& words)

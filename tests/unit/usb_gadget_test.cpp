@@ -1,4 +1,5 @@
 // The gadget's folder, in a folder that is none of the kernel's; and who serves.
+#include "usb/end_server.h"
 #include "usb/gadget_child.h"
 #include "usb/gadget_user.h"
 #include "usb/gadget_words.h"
@@ -15,6 +16,10 @@
 #include <iterator>
 #include <string>
 
+#include <csignal>
+
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -159,6 +164,110 @@ TEST(ServerPage, IsHeldByOneProcessAndSeenByOthers)
     EXPECT_EQ(ended, 0);
     EXPECT_EQ(server_of(path), 0); // however it ended
     EXPECT_TRUE(ServerPage::take(path).ok());
+}
+
+mode_t mode_of(const std::string& path)
+{
+    struct stat told
+    {
+    };
+    return ::lstat(path.c_str(), &told) == 0 ? told.st_mode & 07777 : 0;
+}
+
+TEST(ServerPage, LetsEverybodyReadTheFiguresAndNobodyTakeTheLock)
+{
+    const TempFolder folder;
+    const std::string path = folder.path("server");
+    const mode_t before = ::umask(0027);
+    const bool taken = ServerPage::take(path).ok();
+    ::umask(before);
+    ASSERT_TRUE(taken);
+    EXPECT_EQ(mode_of(path), 0644U);
+    EXPECT_EQ(mode_of(path + ".lock"), 0600U);
+}
+
+TEST_F(UsbGadgetTest, KeepsItsFolderToItselfAndFollowsNoLink)
+{
+    fs::create_directories(folder_.path("top"));
+    const UsbGadget gadget(places());
+    const mode_t before = ::umask(0077);
+    EXPECT_TRUE(gadget.make_run_folder().ok());
+    ::umask(before);
+    EXPECT_EQ(mode_of(places().run), 0755U);
+    ASSERT_EQ(::chmod(places().run.c_str(), 0777), 0);
+    EXPECT_TRUE(gadget.make_run_folder().ok());
+    EXPECT_EQ(mode_of(places().run), 0755U);
+    fs::remove(places().run);
+    fs::create_directory(folder_.path("elsewhere"));
+    ASSERT_EQ(::chmod(folder_.path("elsewhere").c_str(), 0700), 0);
+    fs::create_symlink(folder_.path("elsewhere"), places().run);
+    EXPECT_FALSE(gadget.make_run_folder().ok());
+    EXPECT_EQ(mode_of(folder_.path("elsewhere")), 0700U);
+}
+
+/// A process that holds the lock and then waits, as this program or as `sleep`.
+pid_t lock_holder(const std::string& lock, int command, bool as_sleep)
+{
+    int ready[2];
+    if (::pipe2(ready, O_CLOEXEC) != 0)
+        return -1;
+    const pid_t child = ::fork();
+    if (child == 0) {
+        struct flock whole
+        {
+        };
+        whole.l_type = F_WRLCK;
+        const int file = ::open(lock.c_str(), O_RDWR | O_CREAT, 0600);
+        if (::fcntl(file, command, &whole) != 0)
+            ::_exit(1);
+        (void)!::write(ready[1], "r", 1);
+        if (as_sleep)
+            ::execl("/bin/sleep", "sleep", "60", nullptr);
+        ::sleep(60);
+        ::_exit(0);
+    }
+    ::close(ready[1]);
+    char byte = 0;
+    const bool held = ::read(ready[0], &byte, 1) == 1 && (!as_sleep || ::read(ready[0], &byte, 1) == 0);
+    ::close(ready[0]);
+    EXPECT_TRUE(held);
+    return child;
+}
+
+/// The signal that ended it; 0: none has, until now.
+int ended_by(pid_t child, int how)
+{
+    int ended = 0;
+    return ::waitpid(child, &ended, how) == child && WIFSIGNALED(ended) ? WTERMSIG(ended) : 0;
+}
+
+TEST(EndServer, EndsThisProgramAlone)
+{
+    const TempFolder folder;
+    const std::string path = folder.path("server");
+    EXPECT_EQ(end_server(path).value(), 0);
+    const pid_t ours = lock_holder(path + ".lock", F_SETLK, false);
+    EXPECT_EQ(end_server(path).value(), ours);
+    EXPECT_EQ(ended_by(ours, 0), SIGTERM);
+    const pid_t other = lock_holder(path + ".lock", F_SETLK, true);
+    const Result<pid_t> refused = end_server(path);
+    EXPECT_EQ(refused.status().fault(), Fault::kUnavailable);
+    EXPECT_THAT(refused.status().message(), HasSubstr("is left alone"));
+    EXPECT_EQ(ended_by(other, WNOHANG), 0);
+    (void)::kill(other, SIGKILL);
+    EXPECT_EQ(ended_by(other, 0), SIGKILL);
+}
+
+TEST(EndServer, SignalsNobodyWhenTheLockDoesNotTellWhoHoldsIt)
+{
+    const TempFolder folder;
+    const std::string path = folder.path("server");
+    const pid_t holder = lock_holder(path + ".lock", F_OFD_SETLK, false);
+    EXPECT_EQ(server_of(path), kSomebody);
+    EXPECT_EQ(end_server(path).status().fault(), Fault::kUnavailable);
+    EXPECT_EQ(ended_by(holder, WNOHANG), 0);
+    (void)::kill(holder, SIGKILL);
+    EXPECT_EQ(ended_by(holder, 0), SIGKILL);
 }
 
 TEST(GadgetChild, IsStartedWithoutTheServicesSocketAndEndsWithUs)

@@ -1,5 +1,6 @@
 #include "gadget_root.h"
 
+#include "end_server.h"
 #include "gadget_user.h"
 #include "gadget_words.h"
 
@@ -8,11 +9,6 @@
 #include "dicot/os/clock.h"
 #include "dicot/os/host.h"
 
-#include <cerrno>
-#include <csignal>
-#include <cstring>
-
-#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -33,8 +29,8 @@ Status prepare(const ServerWish& wish, UsbGadget& gadget, ServerPage& page, cons
 
 Result<ServerPage> take_page(const GadgetPlaces& places)
 {
-    if (::mkdir(places.run.c_str(), 0755) != 0 && errno != EEXIST && ::geteuid() == 0)
-        return failure(Fault::kOsError, "%s cannot be made (%s)", places.run.c_str(), strerrordesc_np(errno));
+    if (::geteuid() == 0)
+        TRY(UsbGadget(places).make_run_folder());
     return ServerPage::take(places.server());
 }
 
@@ -88,16 +84,14 @@ Result<ServerPage> prepared_page(const ServerWish& wish, UsbGadget& gadget)
     return page;
 }
 
-Status take_gadget_down(const GadgetPlaces& places)
+Result<TakenDown> take_gadget_down(const GadgetPlaces& places)
 {
-    if (const pid_t server = server_of(places.server()); server != 0) {
-        if (::kill(server, SIGTERM) != 0 && errno != ESRCH)
-            return failure(Fault::kUnavailable, "process %d serves, and is not this user's to end: run as root",
-                           static_cast<int>(server));
-        if (!await_end(places.server()))
-            return failure(Fault::kTryAgain, "process %d was told to end and has not yet", static_cast<int>(server));
-    }
-    return UsbGadget(places).remove();
+    const pid_t server = TRY(end_server(places.server()));
+    if (server != 0 && !await_end(places.server()))
+        return failure(Fault::kTryAgain, "process %d was told to end and has not yet", static_cast<int>(server));
+    const bool was_there = UsbGadget(places).there();
+    TRY(UsbGadget(places).remove());
+    return TakenDown{server, was_there};
 }
 
 } // namespace dicot::app

@@ -7,6 +7,7 @@
 #include "dicot/gadget/usb_gadget.h"
 
 #include <string>
+#include <sys/types.h>
 
 namespace dicot::app {
 
@@ -28,7 +29,13 @@ Status prepare_gadget(const ServerWish& wish);
 /// UsbGadget and FfsLink.
 Status serve_store(const ServerWish& wish);
 
-/// Ends who serves, and waits for it; removes the gadget. Fault::kUnavailable: not root. Nothing to do is no fault.
-Status take_gadget_down(const GadgetPlaces& places);
+struct TakenDown
+{
+    pid_t server = 0;    ///< that was ended; 0: nobody served
+    bool gadget = false; ///< there was one to remove
+};
+/// Ends who serves, and waits for it; removes the gadget. Fault::kUnavailable: not root, or who holds the server's lock
+/// is not this program. Nothing to do is no fault.
+Result<TakenDown> take_gadget_down(const GadgetPlaces& places);
 
 } // namespace dicot::app

@@ -1,14 +1,18 @@
 #include "kernel_parts.h"
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 
+#include <fcntl.h>
 #include <spawn.h>
 #include <sys/mount.h>
+#include <sys/stat.h>
 #include <sys/statfs.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 namespace dicot::gadget_parts {
@@ -20,6 +24,24 @@ bool is_folder(const std::string& path)
 {
     std::error_code ignored;
     return std::filesystem::is_directory(path, ignored);
+}
+
+/// A module whose hardware never answers is not waited for: false, and its process is told to end and left alone.
+bool await_end(pid_t child, int& ended)
+{
+    constexpr int kLooks = 200;
+    constexpr timespec kPause{0, 50'000'000};
+    for (int look = 0; look < kLooks; ++look) {
+        const pid_t gone = ::waitpid(child, &ended, WNOHANG);
+        if (gone == child)
+            return true;
+        if (gone < 0 && errno != EINTR)
+            return false;
+        ::nanosleep(&kPause, nullptr);
+    }
+    (void)::kill(child, SIGKILL);
+    (void)::waitpid(child, &ended, WNOHANG);
+    return false;
 }
 
 /// Whether modprobe says that it is there now.
@@ -36,9 +58,7 @@ bool load_module(const char* name)
         if (::posix_spawn(&child, where, nullptr, nullptr, words, environment) != 0)
             continue;
         int ended = 0;
-        while (::waitpid(child, &ended, 0) < 0 && errno == EINTR) {
-        }
-        return WIFEXITED(ended) && WEXITSTATUS(ended) == 0;
+        return await_end(child, ended) && WIFEXITED(ended) && WEXITSTATUS(ended) == 0;
     }
     return false;
 }
@@ -68,6 +88,23 @@ Status provide_configfs(const std::string& config)
     return {};
 }
 
+Status own_folder(const std::string& path)
+{
+    const auto refused = [&path](const char* what, int why) {
+        return failure(why == EACCES || why == EPERM ? Fault::kUnavailable : Fault::kOsError, "%s: %s (%s)",
+                       path.c_str(), what, strerrordesc_np(why));
+    };
+    if (::mkdir(path.c_str(), 0755) != 0 && errno != EEXIST)
+        return refused("cannot be made", errno);
+    const int folder = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (folder < 0)
+        return refused("is no folder", errno);
+    const bool ours = ::fchown(folder, ::geteuid(), ::getegid()) == 0 && ::fchmod(folder, 0755) == 0;
+    const int why = errno;
+    ::close(folder);
+    return ours ? Status{} : refused("cannot be made this user's own", why);
+}
+
 bool is_functionfs(const std::string& folder)
 {
     struct statfs told
@@ -92,7 +129,7 @@ Status mount_functionfs(const std::string& name, const std::string& folder, uid_
 Status unmount_functionfs(const std::string& folder)
 {
     for (int i = 0; i < 8 && is_functionfs(folder); ++i)
-        if (::umount2(folder.c_str(), MNT_DETACH) != 0)
+        if (::umount2(folder.c_str(), MNT_DETACH | UMOUNT_NOFOLLOW) != 0)
             return failure(errno == EPERM ? Fault::kUnavailable : Fault::kOsError, "%s: cannot be unmounted (%s)",
                            folder.c_str(), errno == EPERM ? "run as root" : strerrordesc_np(errno));
     return {};

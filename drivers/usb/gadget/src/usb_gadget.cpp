@@ -145,15 +145,28 @@ Status UsbGadget::make(const GadgetWords& words) const
 Status UsbGadget::prepare(const GadgetWords& words, uid_t user, gid_t group)
 {
     TRY(provide_configfs(places_.config));
-    if (std::error_code ignored; fs::exists(places_.gadget(), ignored))
+    if (there())
         TRY(remove()); // strings of another configuration, a function that lost its process
     TRY(make(words));
-    TRY(make_folders(places_.mount()));
+    TRY(make_run_folder());
+    TRY(unmount_functionfs(places_.mount()));
+    TRY(own_folder(places_.mount()));
     TRY(mount_functionfs("dicot", places_.mount(), user, group));
-    for (const std::string& path : {places_.run, places_.gadget() + "/UDC"})
-        if (::chown(path.c_str(), user, group) != 0)
-            return refused(path, "cannot be handed over", errno);
+    const std::string port = places_.gadget() + "/UDC";
+    if (::lchown(port.c_str(), user, group) != 0)
+        return refused(port, "cannot be handed over", errno);
     return {};
+}
+
+Status UsbGadget::make_run_folder() const
+{
+    return own_folder(places_.run);
+}
+
+bool UsbGadget::there() const
+{
+    std::error_code ignored;
+    return fs::exists(places_.gadget(), ignored);
 }
 
 bool UsbGadget::prepared() const

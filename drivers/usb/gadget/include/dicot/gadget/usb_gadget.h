@@ -45,9 +45,14 @@ public:
     /// what to do about it.
     Result<std::string> controller(const std::string& wanted) const;
 
+    /// The folder of what runs: this user's (root's, as prepare() wants it) and nobody else's to write, whatever the
+    /// mask. What another user left there has no say. Fault::kUnavailable: not this user's to make; kOsError: a link, a
+    /// file.
+    Status make_run_folder() const;
+    bool there() const; ///< the gadget's folder, whoever made it
     /// Root's part. Loads libcomposite and mounts configfs where they are missing; makes the gadget, unbound, and
-    /// mounts its FunctionFS, both to be used by `user`. Whoever serves must have ended. Fault::kUnavailable: no kernel
-    /// support, not root; kOsError.
+    /// mounts its FunctionFS, both to be used by `user`; the folder that it is mounted in stays root's. Whoever serves
+    /// must have ended. Fault::kUnavailable: no kernel support, not root; kOsError.
     Status prepare(const GadgetWords& words, uid_t user, gid_t group);
     /// The folder of the gadget alone: no mount, no owner.
     Status make(const GadgetWords& words) const;
