@@ -253,6 +253,7 @@ TEST_F(PullArchive, asks_a_source_that_tells_no_digests_only_when_it_shall_verif
 {
     EXPECT_EQ(took(), Took::kNew);
     offer(honest(1, kNoon, 999).files);
+    source_.all.front().offer.pulled = true;
     EXPECT_EQ(took(), Took::kThere);
     EXPECT_EQ(took(true), Took::kConflict);
 }
@@ -262,6 +263,7 @@ TEST_F(PullArchive, puts_a_damaged_copy_aside_and_takes_it_anew)
     EXPECT_EQ(took(), Took::kNew);
     const int node = medium_.find_file((std::string{kFirstFolder} + "/cloud.drc").c_str());
     ASSERT_TRUE(medium_.write_at(node, 7, std::as_bytes(std::span("spoilt", 6))).ok());
+    source_.all.front().offer.pulled = true;
     EXPECT_EQ(took(), Took::kThere) << "it is believed";
     const Result<Taken> anew = take_first(medium_, source_, true);
     ASSERT_TRUE(anew.ok());
@@ -275,6 +277,72 @@ TEST_F(PullArchive, puts_a_damaged_copy_aside_and_takes_it_anew)
                     .ok());
     EXPECT_EQ(took(), Took::kNew) << "digests that cannot be read are believed by nobody";
     EXPECT_EQ(names_in(medium_, "quarantine").size(), 2U);
+}
+
+TEST_F(PullArchive, believes_no_copy_of_which_the_source_is_still_to_be_told)
+{
+    EXPECT_EQ(took(), Took::kNew);
+    ASSERT_TRUE(medium_.remove_file((std::string{kFirstFolder} + "/cloud.drc").c_str()).ok());
+    EXPECT_EQ(took(), Took::kNew) << "a copy that stopped early";
+    EXPECT_TRUE(is_whole_copy(medium_, kFirstFolder, first()));
+    EXPECT_EQ(took(), Took::kThere);
+}
+
+TEST_F(PullArchive, keeps_a_damaged_copy_in_its_place_until_the_new_one_is_complete)
+{
+    EXPECT_EQ(took(), Took::kNew);
+    source_.all.front().offer.pulled = true;
+    const int node = medium_.find_file((std::string{kFirstFolder} + "/cloud.drc").c_str());
+    ASSERT_TRUE(medium_.write_at(node, 7, std::as_bytes(std::span("spoilt", 6))).ok());
+    for (const std::uint64_t reads : {0U, 1U, 9U}) {
+        source_.reads_left = reads;
+        EXPECT_EQ(take_first(medium_, source_, true).status().fault(), Fault::kUnavailable);
+        EXPECT_TRUE(is_there(medium_, kFirstFolder)) << reads;
+        const auto archive = BoardArchive::open(medium_, source_.serial());
+        ASSERT_TRUE(archive.ok());
+        EXPECT_TRUE(archive.value()->is_owed(1)) << reads;
+        NumberRanges had;
+        had.add(1);
+        EXPECT_TRUE(archive.value()->note({kNoon, had}).ok());
+    }
+    source_.reads_left = std::numeric_limits<std::uint64_t>::max();
+    EXPECT_EQ(took(), Took::kNew) << "without a wish to verify, and although it is marked";
+    EXPECT_TRUE(is_whole_copy(medium_, kFirstFolder, first()));
+    EXPECT_EQ(names_in(medium_, "quarantine").size(), 1U);
+    EXPECT_TRUE(names_in(medium_, "incoming").empty());
+    EXPECT_EQ(took(), Took::kThere);
+}
+
+TEST_F(PullArchive, owes_what_went_to_quarantine_until_it_is_in_its_place)
+{
+    EXPECT_EQ(took(), Took::kNew);
+    ASSERT_TRUE(medium_.make_folder("quarantine").ok());
+    ASSERT_TRUE(medium_.rename(kFirstFolder, "quarantine/000001_20260601T120000Z.2").ok());
+    {
+        const auto archive = BoardArchive::open(medium_, source_.serial());
+        ASSERT_TRUE(archive.ok());
+        EXPECT_TRUE(archive.value()->is_owed(1));
+    }
+    EXPECT_EQ(took(), Took::kNew);
+    const auto archive = BoardArchive::open(medium_, source_.serial());
+    ASSERT_TRUE(archive.ok());
+    EXPECT_FALSE(archive.value()->is_owed(1));
+}
+
+TEST_F(PullArchive, keeps_a_half_part_that_a_damaged_copy_cannot_end)
+{
+    source_.reads_left = 10;
+    EXPECT_EQ(take_first(medium_, source_).status().fault(), Fault::kUnavailable);
+    ScriptedSource copy;
+    copy.serial_number = "";
+    copy.all = {first()};
+    copy.all.front().files.pop_back(); // SHA256SUMS
+    const Result<Taken> taken = take_first(medium_, copy);
+    ASSERT_TRUE(taken.ok());
+    EXPECT_EQ(taken.value().how, Took::kDamaged);
+    source_.reads_left = std::numeric_limits<std::uint64_t>::max();
+    EXPECT_EQ(took(), Took::kNew);
+    EXPECT_EQ(source_.bytes_read["cloud.drc"], 1000U) << "nothing came twice";
 }
 
 TEST_F(PullArchive, is_of_one_board_alone)

@@ -192,6 +192,36 @@ TEST_F(PullOneBoard, goes_on_after_it_was_pulled_out_and_tells_what_arrived)
     EXPECT_EQ(source_.marked.size(), 4U);
 }
 
+TEST_F(PullOneBoard, tells_it_of_no_copy_that_stopped_early_before_that_is_whole)
+{
+    (void)pull(source_);
+    source_.marked.clear();
+    std::filesystem::remove(wishes_.archive + "/tent/2026-06-01/000002_20260601T120000Z/cloud.drc");
+    const PullReport report = pull(source_);
+    EXPECT_TRUE(report.outcome.ok()) << report.outcome.message();
+    EXPECT_EQ(report.fresh, 1);
+    EXPECT_EQ(report.put_aside, 1);
+    EXPECT_EQ(report.there, 3);
+    EXPECT_EQ(source_.marked.size(), 4U);
+    EXPECT_TRUE(std::filesystem::exists(wishes_.archive + "/tent/2026-06-01/000002_20260601T120000Z/cloud.drc"));
+}
+
+TEST_F(PullOneBoard, takes_what_it_owes_although_another_computer_has_it)
+{
+    for (ScriptedSnapshot& one : source_.all)
+        one.offer.pulled = true;
+    wishes_.all = true;
+    source_.reads_left = 10;
+    EXPECT_EQ(pull(source_).outcome.fault(), Fault::kTryAgain);
+    wishes_.all = false;
+    wishes_.verify = true;
+    source_.reads_left = 10'000;
+    const PullReport rest = pull(source_);
+    EXPECT_TRUE(rest.outcome.ok()) << rest.outcome.message();
+    EXPECT_EQ(rest.fresh, 1) << "the half part alone";
+    EXPECT_EQ(rest.elsewhere, 3);
+}
+
 TEST_F(PullOneBoard, gives_up_after_some_failures_in_a_row)
 {
     for (int k = 5; k <= 40; ++k)

@@ -134,8 +134,10 @@ bool BoardPull::is_wanted(const OfferedSnapshot& offered)
         return false;
     }
     const std::optional<std::int64_t> here = archive_->find(offered.sequence);
-    if (!offered.pulled || wishes_.verify || (here && *here != offered.began_us))
-        return here || !offered.pulled || wishes_.all;
+    if (!offered.pulled || archive_->is_owed(offered.sequence))
+        return true;
+    if (here && (wishes_.verify || *here != offered.began_us))
+        return true;
     if (here) { // and the board knows it
         ++report_.there;
         return false;
@@ -213,6 +215,10 @@ void BoardPull::count(const OfferedSnapshot& offered, const Taken& taken)
         ++report_.unreadable;
         break;
     }
+    if (taken.stays_damaged) {
+        ++report_.damaged_here;
+        screen_.say(prefix(offered) + "it is damaged here, and could not be taken anew; it stays until it can");
+    }
     if (taken.put_aside) {
         ++report_.put_aside;
         screen_.say(prefix(offered) + "it was damaged here; that copy is in quarantine/ now");
@@ -246,6 +252,9 @@ Status BoardPull::verdict() const
     if (report_.unreadable > 0)
         return failure(Fault::kTryAgain, "%s could not be read now: pull again",
                        counted(report_.unreadable, "snapshot").c_str());
+    if (report_.damaged_here > 0)
+        return failure(Fault::kBadData, "%s damaged here and not to be had from this source: pull from another one",
+                       counted(report_.damaged_here, "snapshot").c_str());
     if (report_.unmarked > 0)
         return failure(Fault::kTryAgain,
                        "everything is here, but the board was too busy to be told of %s: the next pull tells it",

@@ -26,21 +26,22 @@ struct PullWishes
 struct PullReport
 {
     std::string device, serial, where;
-    std::int64_t offered = 0;    ///< snapshots that the source has
-    std::int64_t fresh = 0;      ///< new in the archive
-    std::uint64_t bytes = 0;     ///< of them
-    std::int64_t there = 0;      ///< they were there already
-    std::int64_t elsewhere = 0;  ///< left, as another computer has them
-    std::int64_t earlier = 0;    ///< left, as they began before --since
-    std::int64_t damaged = 0;    ///< at the source
-    std::int64_t conflicts = 0;  ///< the archive has another one of the number
-    std::int64_t gone = 0;       ///< pruned while we pulled
-    std::int64_t unreadable = 0; ///< the source failed
-    std::int64_t put_aside = 0;  ///< damaged here, and taken anew
-    std::int64_t marked = 0;     ///< the board knows now
-    std::int64_t unmarked = 0;   ///< it was busy: the next pull tells it
-    std::string marks_why;       ///< why it takes no marks; empty: it does
-    std::string clock;           ///< what became of the time; empty: nobody asked
+    std::int64_t offered = 0;      ///< snapshots that the source has
+    std::int64_t fresh = 0;        ///< new in the archive
+    std::uint64_t bytes = 0;       ///< of them
+    std::int64_t there = 0;        ///< they were there already
+    std::int64_t elsewhere = 0;    ///< left, as another computer has them
+    std::int64_t earlier = 0;      ///< left, as they began before --since
+    std::int64_t damaged = 0;      ///< at the source
+    std::int64_t conflicts = 0;    ///< the archive has another one of the number
+    std::int64_t gone = 0;         ///< pruned while we pulled
+    std::int64_t unreadable = 0;   ///< the source failed
+    std::int64_t damaged_here = 0; ///< and not taken anew: they stay
+    std::int64_t put_aside = 0;    ///< damaged here, and taken anew
+    std::int64_t marked = 0;       ///< the board knows now
+    std::int64_t unmarked = 0;     ///< it was busy: the next pull tells it
+    std::string marks_why;         ///< why it takes no marks; empty: it does
+    std::string clock;             ///< what became of the time; empty: nobody asked
     Status outcome;
 };
 

@@ -77,6 +77,7 @@ nlohmann::json pull_json(const PullReport& report)
                            {"conflicts", report.conflicts},
                            {"gone", report.gone},
                            {"unreadable", report.unreadable},
+                           {"damaged_here", report.damaged_here},
                            {"put_aside", report.put_aside},
                            {"marked", report.marked},
                            {"unmarked", report.unmarked},

@@ -26,6 +26,7 @@ public:
     Status snapshots(std::int64_t first_sequence, FunctionRef<bool(const OfferedSnapshot&)> visit) override;
     Status files(const OfferedSnapshot& snapshot, FunctionRef<bool(const OfferedFile&)> visit) override;
     Result<std::size_t> read(const OfferedFile& file, std::uint64_t offset, std::span<std::byte> into) override;
+    bool takes_marks() const override { return false; }
     Status mark(std::span<const Pulled>) override
     {
         return failure(Fault::kUsage, "%s: the device is none of dicot's, it takes no marks", talk_->where().data());

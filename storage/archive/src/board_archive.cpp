@@ -6,12 +6,14 @@
 #include "part_folder.h"
 
 #include "dicot/base/printable.h"
+#include "dicot/base/utc_time.h"
 #include "dicot/os/shown_path.h"
 #include "dicot/store/store.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,15 +37,21 @@ public:
         return there == here_.end() ? std::nullopt : std::optional{there->second};
     }
     std::int64_t count() const override { return static_cast<std::int64_t>(here_.size()); }
+    bool is_owed(std::int64_t sequence) const override { return owed_.contains(sequence); }
     Result<Taken> take(PullSource& source, const OfferedSnapshot& offered, bool verify,
                        FunctionRef<bool(std::uint64_t)> arrived) override;
     Status note(const LastPull& pull) override;
 
 private:
     Status make_it_this_boards(std::string_view serial);
+    Status find_owed();
+    /// `damaged`: stands in its place until the new one is complete.
     Result<Taken> take_new(PullSource& source, const OfferedSnapshot& offered, const SnapshotName& name,
-                           FunctionRef<bool(std::uint64_t)> arrived);
-    /// None: nothing that can be believed is in its place any more.
+                           const SnapshotName* damaged, FunctionRef<bool(std::uint64_t)> arrived);
+    Status settle(PartFolder& part, const SnapshotName& name, const SnapshotName* damaged);
+    /// Who is to be told of it must be able to rely upon it: also if power goes now.
+    Status make_last(const SnapshotName& there);
+    /// None: what is in its place cannot be believed.
     Result<std::optional<Taken>> compare(PullSource& source, const OfferedSnapshot& offered, const SnapshotName& there,
                                          bool verify);
     Status put_aside(const SnapshotName& name);
@@ -53,6 +61,8 @@ private:
     std::vector<std::byte> piece_;
     bool serial_known_ = false;
     std::map<std::int64_t, std::int64_t> here_; ///< sequence -> when it began
+    std::set<std::int64_t> owed_;
+    bool synced_ = false; ///< whatever stood here before
 };
 
 /// What a failure of the source means for this snapshot; those that end the pull are returned as they are.
@@ -95,7 +105,23 @@ Status DiskArchive::start(std::string_view serial)
     if (!listed.value())
         return failure(Fault::kIoError,
                        "a day's folder cannot be listed: see what is wrong with this disk, then pull again");
-    return {};
+    return find_owed();
+}
+
+Status DiskArchive::find_owed()
+{
+    const auto names_in = [&](const char* room, bool also_here) {
+        const Errno listed = medium_.list(room, [&](const MediumEntry& entry) {
+            // In quarantine/ ".2" may stand behind the name.
+            const auto name = parse_snapshot_name(entry.name.substr(0, entry.name.find('.')));
+            if (name && (also_here || !here_.contains(name->sequence)))
+                owed_.insert(name->sequence);
+            return true;
+        });
+        return listed.number() == ENOENT ? Status{} : on_disk(listed, room, "listing it");
+    };
+    TRY(names_in(kIncoming, true));
+    return names_in(kQuarantine, false);
 }
 
 Status DiskArchive::make_it_this_boards(std::string_view serial)
@@ -120,16 +146,26 @@ Result<Taken> DiskArchive::take(PullSource& source, const OfferedSnapshot& offer
     const Result<SnapshotName> name = name_of(offered);
     if (!name.ok())
         return judged(name.status());
-    std::optional<std::int64_t> put_aside;
-    if (const auto there = here_.find(offered.sequence); there != here_.end()) {
-        const auto compared = TRY(compare(source, offered, {there->first, there->second}, verify));
-        if (compared)
-            return *compared;
-        put_aside = offered.sequence;
-    }
-    Taken taken = TRY(take_new(source, offered, name.value(), arrived));
-    taken.put_aside = put_aside;
-    return taken;
+    const bool must_hash = verify || is_owed(offered.sequence) || (!offered.pulled && source.takes_marks());
+    const auto there = here_.find(offered.sequence);
+    if (there == here_.end())
+        return take_new(source, offered, name.value(), nullptr, arrived);
+    const SnapshotName old{there->first, there->second};
+    if (const auto compared = TRY(compare(source, offered, old, must_hash)))
+        return *compared;
+    return take_new(source, offered, name.value(), &old, arrived);
+}
+
+Status DiskArchive::make_last(const SnapshotName& there)
+{
+    if (!synced_)
+        TRY(on_disk(medium_.sync_all(), "", "syncing"));
+    synced_ = true;
+    const StorePath day = utc_day(there.began_us).view();
+    TRY(on_disk(medium_.sync_folder(day.c_str()), day.c_str(), "syncing"));
+    if (owed_.erase(there.sequence) == 0)
+        return {};
+    return PartFolder(medium_, desk_, piece_, there).let_go();
 }
 
 Result<std::optional<Taken>> DiskArchive::compare(PullSource& source, const OfferedSnapshot& offered,
@@ -158,7 +194,9 @@ Result<std::optional<Taken>> DiskArchive::compare(PullSource& source, const Offe
     if (TRY(is_whole(medium_, folder, there, desk_))) {
         taken.how = same ? Took::kThere : Took::kConflict;
         taken.sums = digest_bytes(sums.value().sha256);
-        if (!same)
+        if (same)
+            TRY(make_last(there));
+        else
             taken.why =
                 failure(Fault::kBadData,
                         "%s: the source has another snapshot of this number; two boards of one name, or one that "
@@ -166,7 +204,6 @@ Result<std::optional<Taken>> DiskArchive::compare(PullSource& source, const Offe
                         folder.c_str());
         return std::optional{taken};
     }
-    TRY(this->put_aside(there));
     return std::optional<Taken>{};
 }
 
@@ -190,9 +227,11 @@ Status DiskArchive::put_aside(const SnapshotName& name)
 }
 
 Result<Taken> DiskArchive::take_new(PullSource& source, const OfferedSnapshot& offered, const SnapshotName& name,
-                                    FunctionRef<bool(std::uint64_t)> arrived)
+                                    const SnapshotName* damaged, FunctionRef<bool(std::uint64_t)> arrived)
 {
     PartFolder part(medium_, desk_, piece_, name);
+    if (damaged != nullptr)
+        TRY(part.begin());
     const Result<Offer> offer = read_offer(source, offered);
     PartOutcome outcome{offer.status(), true};
     if (offer.ok())
@@ -200,18 +239,32 @@ Result<Taken> DiskArchive::take_new(PullSource& source, const OfferedSnapshot& o
     if (!outcome.status.ok() && !outcome.by_source)
         return outcome.status;
     if (!outcome.status.ok()) {
-        const Taken taken = TRY(judged(outcome.status));
-        if (taken.how != Took::kUnreadable && is_there(medium_, part.path().c_str()))
+        Taken taken = TRY(judged(outcome.status));
+        taken.stays_damaged = damaged != nullptr;
+        // Another source may end what this one cannot, unless only the board itself could.
+        const bool in_vain = outcome.bytes_wrong || (taken.how == Took::kGone && serial_known_);
+        if (in_vain && is_there(medium_, part.path().c_str()))
             TRY(part.let_go());
         return taken;
     }
-    TRY(part.settle());
-    here_.emplace(name.sequence, name.began_us);
+    TRY(settle(part, name, damaged));
     Taken taken;
+    if (damaged != nullptr)
+        taken.put_aside = damaged->sequence;
     taken.how = Took::kNew;
     taken.sums = digest_bytes(offer.value().sums_sha256);
     taken.bytes = offer.value().bytes + offer.value().sums_text.size();
     return taken;
+}
+
+Status DiskArchive::settle(PartFolder& part, const SnapshotName& name, const SnapshotName* damaged)
+{
+    if (damaged != nullptr)
+        TRY(put_aside(*damaged));
+    TRY(part.settle());
+    here_.emplace(name.sequence, name.began_us);
+    owed_.erase(name.sequence);
+    return {};
 }
 
 Status DiskArchive::note(const LastPull& pull)

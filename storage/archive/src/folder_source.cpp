@@ -37,6 +37,7 @@ public:
     {
         return failure(Fault::kUsage, "a folder is only read; marks are for the board itself");
     }
+    bool takes_marks() const override { return false; }
     Status offer_time(std::int64_t) override { return failure(Fault::kUsage, "a folder has no clock"); }
 
 private:

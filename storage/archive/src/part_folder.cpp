@@ -34,15 +34,19 @@ PartOutcome PartFolder::fill(PullSource& source, const Offer& offer, Arrived arr
     const Result<SlotRow> row = row_of(medium_, part_, name_, desk_);
     if (row.ok() || !is_damage(row.status()))
         return {row.status()};
-    return of_source(row.status());
+    return {row.status(), true, true};
+}
+
+Status PartFolder::begin()
+{
+    const Errno made = medium_.make_folder(part_.c_str());
+    return made.number() == EEXIST ? Status{} : on_disk(made, part_.c_str(), "making a folder");
 }
 
 /// With the digests of this offer in it, and nothing that they do not name.
 Status PartFolder::prepare(const Offer& offer)
 {
-    const Errno made = medium_.make_folder(part_.c_str());
-    if (made.number() != EEXIST)
-        TRY(on_disk(made, part_.c_str(), "making a folder"));
+    TRY(begin());
     TRY(write_sums(offer));
     TRY(remove_strangers(offer));
     std::uint64_t there_bytes = 0;
@@ -99,7 +103,7 @@ PartOutcome PartFolder::take_file(PullSource& source, const OfferedFile& file, c
         if (sum.sha256.view() == hex_of(hash.finish()).data())
             return {};
     }
-    return of_source(failure(Fault::kBadData, "%s: its bytes are not those that were stored", sum.name.c_str()));
+    return {failure(Fault::kBadData, "%s: its bytes are not those that were stored", sum.name.c_str()), true, true};
 }
 
 PartOutcome PartFolder::grow_file(PullSource& source, const OfferedFile& file, Sha256Stream& hash, Arrived arrived)

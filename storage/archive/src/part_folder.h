@@ -20,6 +20,7 @@ struct PartOutcome
 {
     Status status;
     bool by_source = false;
+    bool bytes_wrong = false; ///< what arrived is not what its digests say: not worth keeping
 };
 
 class PartFolder
@@ -37,6 +38,8 @@ public:
     PartOutcome fill(PullSource& source, const Offer& offer, Arrived arrived);
     /// All of it synced and renamed into its place.
     Status settle();
+    /// So that an interruption before the first byte is known later.
+    Status begin();
     /// Nothing of it is worth keeping.
     Status let_go();
 

@@ -82,8 +82,9 @@ Status UsbClaim::failure_of(int error, const char* what) const noexcept
         return failure(Fault::kUnavailable, "the device at USB port %s is gone (%s)", port, what);
     case LIBUSB_ERROR_ACCESS:
         return failure(Fault::kUnavailable,
-                       "the device at USB port %s may not be opened by this user (%s); install the udev rules of dicot "
-                       "(60-dicot.rules) and plug it in again",
+                       "the device at USB port %s may not be opened by this user (%s); install the package, or copy "
+                       "61-dicot-computer.rules (toolchain/package/ of the sources) to /etc/udev/rules.d, and plug it "
+                       "in again",
                        port, what);
     case LIBUSB_ERROR_BUSY:
         return failure(

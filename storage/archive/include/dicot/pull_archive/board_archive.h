@@ -33,6 +33,7 @@ struct Taken
     std::array<std::byte, 32> sums{};           ///< of kNew and kThere: SHA-256 of SHA256SUMS
     std::uint64_t bytes = 0;                    ///< of kNew: of all its files
     std::optional<std::int64_t> put_aside = {}; ///< a damaged one of this number went to quarantine/
+    bool stays_damaged = false;                 ///< a damaged one of this number is still in its place
 };
 
 /// What the archive is told of a pull, for whoever asks later what is missing.
@@ -55,10 +56,14 @@ public:
     /// When the snapshot of this number that is in its place began; none: there is none.
     virtual std::optional<std::int64_t> find(std::int64_t sequence) const = 0;
     virtual std::int64_t count() const = 0;
+    /// It was begun and not ended, or went to quarantine/ and nothing stands in its place: to be taken whoever else has
+    /// it.
+    virtual bool is_owed(std::int64_t sequence) const = 0;
 
     /// Takes one over, resuming what an interruption left. `verify`: what is there is hashed before it is believed, and
-    /// taken anew if it is damaged. `arrived` hears of each piece (bytes of it) and returns false to stop: then
-    /// Fault::kTryAgain. Fault::kUnavailable: the source has gone; kIoError: this disk is full or failed.
+    /// taken anew if it is damaged; so is what the source may be told of, and what is owed. A damaged one goes to
+    /// quarantine/ only when the new one is complete. `arrived` hears of each piece (bytes of it) and returns false to
+    /// stop: then Fault::kTryAgain. Fault::kUnavailable: the source has gone; kIoError: this disk is full or failed.
     virtual Result<Taken> take(PullSource& source, const OfferedSnapshot& offered, bool verify,
                                FunctionRef<bool(std::uint64_t bytes)> arrived) = 0;
 

@@ -59,6 +59,8 @@ public:
     /// Tells the source what is verified and synced here. Fault::kUsage: it does not take marks (not ours, read-only,
     /// not allowed); kTryAgain: not now.
     virtual Status mark(std::span<const Pulled> pulled) = 0;
+    /// False: mark() always refuses, so that nobody need prepare a mark.
+    virtual bool takes_marks() const { return true; }
     /// Fault::kUsage with the rule that says no.
     virtual Status offer_time(std::int64_t now_us) = 0;
 };
