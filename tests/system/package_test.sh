@@ -74,6 +74,7 @@ same "the configuration alone is a conffile" /etc/dicot/dicot.toml "$(cat "$root
 same "files, modes and owners" "-rw-r--r-- root/root ./etc/dicot/dicot.toml
 -rw-r--r-- root/root ./lib/systemd/system/dicot-clock.path
 -rw-r--r-- root/root ./lib/systemd/system/dicot-clock.service
+-rw-r--r-- root/root ./lib/systemd/system/dicot-gadget.service
 -rw-r--r-- root/root ./lib/systemd/system/dicot-power-off.path
 -rw-r--r-- root/root ./lib/systemd/system/dicot-power-off.service
 -rw-r--r-- root/root ./lib/systemd/system/dicot.service
@@ -134,13 +135,13 @@ done
 if command -v systemd-analyze >/dev/null; then
     mkdir -p "$root/bin" "$root/etc/systemd/system"
     # Programs and pages of the machine itself are not in this root.
-    for unit in dicot.service dicot-power-off.path dicot-power-off.service dicot-clock.path dicot-clock.service; do
+    for unit in dicot.service dicot-power-off.path dicot-power-off.service dicot-clock.path dicot-clock.service dicot-gadget.service; do
         sed -e '/^Documentation=/d' -e 's,^\(ExecStart[a-zA-Z]*\)=.*,\1=/bin/true,' "$root/lib/systemd/system/$unit" \
             >"$work/$unit"
     done
     same "systemd understands the units" "" \
         "$(systemd-analyze verify "$work/dicot.service" "$work/dicot-power-off.path" "$work/dicot-power-off.service" \
-            "$work/dicot-clock.path" "$work/dicot-clock.service" 2>&1 |
+            "$work/dicot-clock.path" "$work/dicot-clock.service" "$work/dicot-gadget.service" 2>&1 |
             grep -F dicot || true)"
     exposure=$(systemd-analyze security --offline=true "$work/dicot.service" |
         sed -n 's/.*exposure level for dicot.service: \([0-9]*\)\.\([0-9]\).*/\1\2/p')
