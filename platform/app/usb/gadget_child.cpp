@@ -143,7 +143,7 @@ void GadgetChild::look_after(const char* program)
     }
 }
 
-void live_with_parent() noexcept
+void end_with_parent() noexcept
 {
     const char* const parent = std::getenv(GadgetChild::kParent);
     if (parent == nullptr)
@@ -151,6 +151,14 @@ void live_with_parent() noexcept
     (void)::prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (std::strtol(parent, nullptr, 10) != ::getppid()) // it went before it could be watched
         (void)::raise(SIGTERM);
+}
+
+void live_with_parent() noexcept
+{
+    const char* const parent = std::getenv(GadgetChild::kParent);
+    if (parent == nullptr)
+        return;
+    end_with_parent();
     constexpr int kGivesWay = 5;
     (void)::setpriority(PRIO_PROCESS, 0, kGivesWay);
     (void)write_line("/proc/self/oom_score_adj", "500");

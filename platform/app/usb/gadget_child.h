@@ -48,5 +48,8 @@ private:
 /// In the child: it ends with `dicot run`, gives way to it, and is the first to go when memory runs out. Nothing
 /// elsewhere.
 void live_with_parent() noexcept;
+/// That it ends with `dicot run` alone: again after this process became another user, which the kernel takes as its
+/// end.
+void end_with_parent() noexcept;
 
 } // namespace dicot::app
