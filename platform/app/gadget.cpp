@@ -51,6 +51,9 @@ Status tell(const ServerWish& wish, const Words& words)
     const GadgetStatus status = gadget_status(wish.places, wish.config->usb.udc);
     std::printf("%s%s", words.json ? json_text(gadget_json(status)).c_str() : gadget_text(status).c_str(),
                 words.json ? "\n" : "");
+    if (!words.json && !wish.config->usb.export_store)
+        std::printf(
+            "service   shows nothing: usb.export = true in /etc/dicot/dicot.toml, then systemctl restart dicot\n");
     return {};
 }
 
