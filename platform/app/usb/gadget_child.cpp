@@ -78,8 +78,12 @@ GadgetChild::~GadgetChild()
         if (child_ > 0)
             (void)::kill(child_, SIGTERM);
         changed_.notify_all();
-        if (!changed_.wait_for(guard, std::chrono::seconds(kMostEndS), [this] { return ended_; }) && child_ > 0)
-            (void)::kill(child_, SIGKILL);
+        if (!changed_.wait_for(guard, std::chrono::seconds(kMostEndS), [this] { return ended_; })) {
+            if (child_ > 0)
+                (void)::kill(child_, SIGKILL);
+            abandoned_ = !changed_.wait_for(guard, std::chrono::seconds(5), [this] { return ended_; });
+            changed_.notify_all();
+        }
     }
     thread_.join();
 }
@@ -109,11 +113,15 @@ int GadgetChild::run_once(const char* program)
         return -why;
     }
     siginfo_t told{};
-    while (::waitid(P_PID, static_cast<id_t>(child), &told, WEXITED | WNOWAIT) != 0 && errno == EINTR) {
+    // Looked at, not waited for: the kernel may never let go of one that hangs in a driver. Its number is ours until it
+    // is taken here: nobody is told to end in its place.
+    std::unique_lock guard(lock_);
+    while (!abandoned_) {
+        const bool asked = ::waitid(P_PID, static_cast<id_t>(child), &told, WEXITED | WNOHANG) == 0;
+        if ((asked && told.si_pid == child) || (!asked && errno != EINTR))
+            break;
+        (void)changed_.wait_for(guard, std::chrono::milliseconds(stop_ ? 50 : 1000));
     }
-    // Its number is ours until here: nobody is told to end in its place.
-    const std::lock_guard guard(lock_);
-    (void)::waitid(P_PID, static_cast<id_t>(child), &told, WEXITED);
     child_ = 0;
     return told.si_code == CLD_EXITED ? told.si_status : 128 + told.si_status;
 }
