@@ -51,12 +51,10 @@ Status tell(const ServerWish& wish, const Words& words)
     const GadgetStatus status = gadget_status(wish.places, wish.config->usb.udc);
     std::printf("%s%s", words.json ? json_text(gadget_json(status)).c_str() : gadget_text(status).c_str(),
                 words.json ? "\n" : "");
+    if (!words.json && !wish.config->usb.export_store)
+        std::printf(
+            "service   shows nothing: usb.export = true in /etc/dicot/dicot.toml, then systemctl restart dicot\n");
     return {};
-}
-
-Status take_time(const ServerWish& wish, const Words&)
-{
-    return take_waiting_offer(kClockOfferFile, wish.config->usb.clock, board_store(wish).path);
 }
 
 Status run(const Words& words, Work work)
@@ -66,6 +64,17 @@ Status run(const Words& words, Work work)
     wish.config = &loaded.config;
     wish.root = words.root;
     return work(wish, words);
+}
+
+/// An offer that nothing can judge is dropped all the same.
+Status take_time(const Words& words)
+{
+    const WaitingOffer offer = TRY(take_offer(kClockOfferFile));
+    const LoadedConfig loaded = TRY(words.config.load());
+    ServerWish wish;
+    wish.config = &loaded.config;
+    wish.root = words.root;
+    return judge_and_set(offer, kClockOfferFile, loaded.config.usb.clock, board_store(wish).path);
 }
 
 void set(CLI::App& command, Command& chosen, const std::shared_ptr<Words>& words, Work work)
@@ -104,7 +113,8 @@ void add_gadget(CLI::App& program, Command& chosen)
     prepared->add_flag("--if-wanted", words->if_wanted, "nothing unless usb.export is true");
     CLI::App* timed = group->add_subcommand(
         "take-time", "Root's part alone: the time that a computer offered becomes the board's, if the rules say yes");
-    set(*timed, chosen, words, take_time);
+    words->config.add_to(*timed);
+    timed->callback([words, &chosen] { chosen = [words] { return take_time(*words); }; });
     add_root(*timed, *words);
 }
 

@@ -115,9 +115,23 @@ TEST(GadgetSerial, IsAlwaysTheSameAndDoesNotTellTheMachineId)
 TEST(GadgetSerial, IsTheConfiguredOneOrNeedsAMachineId)
 {
     UsbConfig usb;
-    EXPECT_EQ(serial_for(usb, "/nowhere/machine-id").status().fault(), Fault::kConfig);
+    EXPECT_EQ(serial_for(usb, "/nowhere/number", "/nowhere/machine-id").status().fault(), Fault::kConfig);
     usb.serial = "BED-3";
-    EXPECT_EQ(serial_for(usb, "/nowhere/machine-id").value(), "BED-3");
+    EXPECT_EQ(serial_for(usb, "/nowhere/number", "/nowhere/machine-id").value(), "BED-3");
+}
+
+TEST(GadgetSerial, IsOfTheBoardBeforeItsCard)
+{
+    const TempFolder folder;
+    const std::string number = folder.path("serial-number"), id = folder.path("machine-id");
+    std::ofstream(id) << "0123456789abcdef0123456789abcdef\n";
+    const UsbConfig usb;
+    EXPECT_EQ(serial_for(usb, number.c_str(), id.c_str()).value(), "97daa464d8183d1f");
+    std::ofstream(number) << std::string("10000000a1b2c3d4\0", 17);
+    // printf 'dicot usb serial 10000000a1b2c3d4' | sha256sum
+    EXPECT_EQ(serial_for(usb, number.c_str(), id.c_str()).value(), "6ea14c68fafa0d98");
+    std::ofstream(number) << std::string("0000000000000000\0", 17);
+    EXPECT_EQ(serial_for(usb, number.c_str(), id.c_str()).value(), "97daa464d8183d1f");
 }
 
 TEST(GadgetWords, HaveTheVersionInBinaryCodedDecimals)

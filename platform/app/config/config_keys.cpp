@@ -171,10 +171,10 @@ const ConfigKey kKeys[] = {
     {"usb", "clock", "",
      "When the time that dicot pull --set-clock offers is taken; not set: while the board knows none",
      ChoiceKey{reach<std::string, &Config::usb, &UsbConfig::clock>(), kHostClocks}},
-    {"usb", "serial", "", "Serial number that the computer sees; \"\": made of the board's machine-id",
-     NameKey{reach<std::string, &Config::usb, &UsbConfig::serial>()}},
+    {"usb", "serial", "", "Serial number that the computer sees; \"\": made of the board's own number",
+     NameKey{reach<std::string, &Config::usb, &UsbConfig::serial>(), "the board's own"}},
     {"usb", "udc", "", "USB device controller, as /sys/class/udc names it; \"\": the first one",
-     NameKey{reach<std::string, &Config::usb, &UsbConfig::udc>()}},
+     NameKey{reach<std::string, &Config::usb, &UsbConfig::udc>(), "the first one"}},
 };
 
 } // namespace

@@ -41,6 +41,7 @@ struct PathKey
 struct NameKey
 {
     Reach<std::string> reach;
+    const char* if_empty = "the host's name"; ///< what "" stands for
 };
 
 /// A text that parse_replay_script() understands.

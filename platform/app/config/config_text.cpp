@@ -85,9 +85,10 @@ struct AllowedOf
     }
     std::string operator()(const ChoiceKey& key) const { return listed(key.choices, " or ", quoted); }
     std::string operator()(const PathKey& key) const { return key.or_none ? R"(a path, or "")" : "a path"; }
-    std::string operator()(const NameKey&) const
+    std::string operator()(const NameKey& key) const
     {
-        return R"("" (the host's name), or letters, digits, '.', '_' and '-', 63 at most and no date)";
+        return R"("" ()" + std::string(key.if_empty) +
+               "), or letters, digits, '.', '_' and '-', 63 at most and no date";
     }
     std::string operator()(const ScriptKey&) const { return "a text as drivers/README.md has it under replay"; }
     std::string operator()(const WordKey& key) const { return key.allowed; }

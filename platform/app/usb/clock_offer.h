@@ -56,6 +56,10 @@ Status set_clock(std::int64_t now_us) noexcept;
 /// from the heap. Fault::kNoInput: there is no offer; kBadData: it is none; kUsage: it is older than a minute, or the
 /// rules say no; kIoError: the snapshots cannot be looked at; kOsError.
 Status take_waiting_offer(const std::string& file, const std::string& rule, const std::string& store);
+/// Its two halves, so that an offer is away before there is anything to judge it by.
+Result<WaitingOffer> take_offer(const std::string& file);
+Status judge_and_set(const WaitingOffer& offer, const std::string& file, const std::string& rule,
+                     const std::string& store);
 
 /// Sets the clock, or leaves the offer in `file` for who may, and waits up to `patience_us` until the clock shows it.
 /// No heap. Fault::kOsError: nobody did.

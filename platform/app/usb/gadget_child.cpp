@@ -78,8 +78,12 @@ GadgetChild::~GadgetChild()
         if (child_ > 0)
             (void)::kill(child_, SIGTERM);
         changed_.notify_all();
-        if (!changed_.wait_for(guard, std::chrono::seconds(kMostEndS), [this] { return ended_; }) && child_ > 0)
-            (void)::kill(child_, SIGKILL);
+        if (!changed_.wait_for(guard, std::chrono::seconds(kMostEndS), [this] { return ended_; })) {
+            if (child_ > 0)
+                (void)::kill(child_, SIGKILL);
+            abandoned_ = !changed_.wait_for(guard, std::chrono::seconds(5), [this] { return ended_; });
+            changed_.notify_all();
+        }
     }
     thread_.join();
 }
@@ -109,11 +113,15 @@ int GadgetChild::run_once(const char* program)
         return -why;
     }
     siginfo_t told{};
-    while (::waitid(P_PID, static_cast<id_t>(child), &told, WEXITED | WNOWAIT) != 0 && errno == EINTR) {
+    // Looked at, not waited for: the kernel may never let go of one that hangs in a driver. Its number is ours until it
+    // is taken here: nobody is told to end in its place.
+    std::unique_lock guard(lock_);
+    while (!abandoned_) {
+        const bool asked = ::waitid(P_PID, static_cast<id_t>(child), &told, WEXITED | WNOHANG) == 0;
+        if ((asked && told.si_pid == child) || (!asked && errno != EINTR))
+            break;
+        (void)changed_.wait_for(guard, std::chrono::milliseconds(stop_ ? 50 : 1000));
     }
-    // Its number is ours until here: nobody is told to end in its place.
-    const std::lock_guard guard(lock_);
-    (void)::waitid(P_PID, static_cast<id_t>(child), &told, WEXITED);
     child_ = 0;
     return told.si_code == CLD_EXITED ? told.si_status : 128 + told.si_status;
 }
@@ -143,7 +151,7 @@ void GadgetChild::look_after(const char* program)
     }
 }
 
-void live_with_parent() noexcept
+void end_with_parent() noexcept
 {
     const char* const parent = std::getenv(GadgetChild::kParent);
     if (parent == nullptr)
@@ -151,6 +159,14 @@ void live_with_parent() noexcept
     (void)::prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (std::strtol(parent, nullptr, 10) != ::getppid()) // it went before it could be watched
         (void)::raise(SIGTERM);
+}
+
+void live_with_parent() noexcept
+{
+    const char* const parent = std::getenv(GadgetChild::kParent);
+    if (parent == nullptr)
+        return;
+    end_with_parent();
     constexpr int kGivesWay = 5;
     (void)::setpriority(PRIO_PROCESS, 0, kGivesWay);
     (void)write_line("/proc/self/oom_score_adj", "500");

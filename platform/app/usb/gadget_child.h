@@ -23,7 +23,7 @@ public:
     GadgetChild() = default;
     GadgetChild(const GadgetChild&) = delete;
     GadgetChild& operator=(const GadgetChild&) = delete;
-    ~GadgetChild(); ///< ends it, within kMostEndS
+    ~GadgetChild(); ///< ends it, within kMostEndS; leaves one that not even SIGKILL ends, 5 s later
 
     static constexpr int kMostEndS = 20;
     static constexpr const char* kParent = "DICOT_GADGET_PARENT"; ///< in its environment: our number
@@ -40,7 +40,7 @@ private:
     std::vector<char*> word_pointers_, environment_pointers_;
     std::mutex lock_;
     std::condition_variable changed_;
-    bool stop_ = false, ended_ = false;
+    bool stop_ = false, ended_ = false, abandoned_ = false;
     pid_t child_ = 0;
     std::thread thread_;
 };
@@ -48,5 +48,8 @@ private:
 /// In the child: it ends with `dicot run`, gives way to it, and is the first to go when memory runs out. Nothing
 /// elsewhere.
 void live_with_parent() noexcept;
+/// That it ends with `dicot run` alone: again after this process became another user, which the kernel takes as its
+/// end.
+void end_with_parent() noexcept;
 
 } // namespace dicot::app

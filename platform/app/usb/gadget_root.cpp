@@ -1,6 +1,7 @@
 #include "gadget_root.h"
 
 #include "end_server.h"
+#include "gadget_child.h"
 #include "gadget_user.h"
 #include "gadget_words.h"
 
@@ -80,6 +81,7 @@ Result<ServerPage> prepared_page(const ServerWish& wish, UsbGadget& gadget)
         const GadgetUser user = user_for(board_store(wish).path);
         TRY(prepare(wish, gadget, page, user));
         TRY(become(user));
+        end_with_parent();
     }
     return page;
 }

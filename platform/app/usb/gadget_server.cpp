@@ -73,10 +73,12 @@ struct Server
     UsbGadget& gadget;
     std::string controller;
     FfsLink& link;
+    const ShelfObjects& objects;
     mtp::Responder& responder;
     ServerFigures& figures;
     std::uint64_t sessions_told = 0;
     bool controller_went = false;
+    ShortText<255> hidden_told{};
 
     /// A controller that went (its driver was unloaded, its port became a host's) has let go of the gadget. What
     /// somebody unbound by hand stays so.
@@ -88,8 +90,17 @@ struct Server
         controller_went = !there;
     }
 
+    void tell_hidden()
+    {
+        const ShortText<255> words = hidden_words(objects.hidden());
+        if (words.view() != hidden_told.view() && !words.view().empty())
+            journal(Priority::kNotice, "%s", words.c_str());
+        hidden_told = words;
+    }
+
     void tell()
     {
+        tell_hidden();
         const mtp::ResponderCounts& counts = responder.counts();
         copy(counts, link.counts(), figures);
         if (counts.sessions != sessions_told && !counts.session_open) {
@@ -111,6 +122,7 @@ struct Server
 
     Status serve()
     {
+        tell_hidden();
         while (goes_on()) {
             const Status host = link.await_host(kLookMs);
             if (host.ok())
@@ -165,13 +177,13 @@ Status serve_store(const ServerWish& wish)
     ServerFigures& figures = page.figures();
     figures.fixed_bytes = most_resident(TRY(process_memory()), shelf);
     figures.began_us = static_cast<std::uint64_t>(utc_now_us());
-    std::printf(
-        "a computer at %s sees the board \"%s\", serial number %s, with the clouds of %s; memory is fixed: %.1f MiB "
-        "at most\n",
-        controller.c_str(), store.device.c_str(), serial.c_str(), store.path.c_str(),
-        static_cast<double>(figures.fixed_bytes) / (1024 * 1024));
+    std::printf("a computer that is plugged into %s will see the board \"%s\", serial number %s, with the clouds of "
+                "%s; memory is fixed: %.1f MiB "
+                "at most\n",
+                controller.c_str(), store.device.c_str(), serial.c_str(), store.path.c_str(),
+                static_cast<double>(figures.fixed_bytes) / (1024 * 1024));
     std::fflush(stdout);
-    Server server{gadget, controller, *link, *responder, figures};
+    Server server{gadget, controller, *link, *objects, *responder, figures};
     memory->seal();
     TRY(gadget.bind(controller.c_str()));
     figures.magic = ServerFigures::kMagic;

@@ -95,7 +95,8 @@ std::string gadget_text(const GadgetStatus& status)
         text += "port      " + status.controller + ": " + (status.state.empty() ? "?" : status.state) +
                 (status.state == "configured" ? ", " + status.speed : "") + "\n";
     text += std::string("gadget    ") +
-            (status.bound      ? "bound: a computer sees it"
+            (status.bound
+                 ? (status.state == "configured" ? "bound, and a computer sees it" : "bound: no computer sees it now")
              : status.prepared ? "prepared, not bound"
                                : "not prepared: 'dicot gadget up' as root") +
             "\n";

@@ -7,10 +7,15 @@
 
 namespace dicot::app {
 
-Result<std::string> serial_for(const UsbConfig& usb, const char* machine_id_file)
+Result<std::string> serial_for(const UsbConfig& usb, const char* board_number_file, const char* machine_id_file)
 {
     if (!usb.serial.empty())
         return usb.serial;
+    if (const auto number = read_line(board_number_file)) {
+        const std::string_view text = number->view().substr(0, number->view().find('\0')); // as device trees end texts
+        if (text.find_first_not_of('0') != std::string_view::npos)
+            return serial_of(std::string(text));
+    }
     const auto id = read_line(machine_id_file);
     if (!id || id->empty())
         return failure(Fault::kConfig, "%s is not there to make a serial number of: give usb.serial", machine_id_file);

@@ -33,10 +33,27 @@ std::int64_t us_of(clockid_t clock) noexcept
 Result<std::optional<std::int64_t>> latest_in(const std::string& store)
 {
     std::error_code error;
-    if (!std::filesystem::exists(store, error) && !error)
+    const std::filesystem::file_status there = std::filesystem::status(store, error);
+    if (there.type() == std::filesystem::file_type::not_found)
         return std::optional<std::int64_t>{};
+    if (error)
+        return failure(Fault::kIoError, "%s cannot be looked at (%s): no time is taken", shown_path(store.c_str()),
+                       error.message().c_str());
     const auto medium = TRY(open_disk_medium(store));
     return latest_in_store(*medium, kEndOfOffersUs);
+}
+
+/// Whatever it is: what stays would be seen again at once. A folder's links are removed, not followed.
+bool drop(const std::string& file) noexcept
+{
+    constexpr int kMostEntries = 1000; // more than that is left for the start limit of the unit
+    std::error_code error;
+    std::filesystem::recursive_directory_iterator each(file, error), end;
+    for (int count = 0; !error && each != end; each.increment(error))
+        if (++count > kMostEntries)
+            return false;
+    std::filesystem::remove_all(file, error);
+    return !error;
 }
 
 /// Its folder belongs to somebody else: no link is followed, nothing but a file is opened.
@@ -55,7 +72,8 @@ Result<WaitingOffer> take_away(const std::string& file)
     bool whole = outcome.ok() && folder->read(opened, std::as_writable_bytes(std::span(text)), got).ok();
     if (outcome.ok())
         (void)folder->close(opened);
-    (void)folder->remove_file(name.c_str());
+    if (!folder->remove_file(name.c_str()).ok() && !drop(file))
+        return failure(Fault::kIoError, "%s cannot be removed", shown_path(file.c_str()));
     const auto offer = whole ? parse_offer({text, got}) : std::nullopt;
     if (!offer)
         return failure(Fault::kBadData, "%s: this is no offer of a time", shown_path(file.c_str()));
@@ -88,9 +106,19 @@ Status set_clock(std::int64_t now_us) noexcept
     return {};
 }
 
+Result<WaitingOffer> take_offer(const std::string& file)
+{
+    return take_away(file);
+}
+
 Status take_waiting_offer(const std::string& file, const std::string& rule, const std::string& store)
 {
-    const WaitingOffer offer = TRY(take_away(file));
+    return judge_and_set(TRY(take_offer(file)), file, rule, store);
+}
+
+Status judge_and_set(const WaitingOffer& offer, const std::string& file, const std::string& rule,
+                     const std::string& store)
+{
     const std::int64_t age_us = boot_us() - offer.taken_us;
     if (age_us < 0 || age_us > kMostAgeUs)
         return failure(Fault::kUsage, "%s: this offer of a time is too old", shown_path(file.c_str()));

@@ -26,7 +26,7 @@ using namespace gadget_parts;
 constexpr const char* kFunction = "functions/ffs.dicot";
 constexpr const char* kConfiguration = "configs/c.1";
 constexpr const char* kStrings = "strings/0x409"; // English
-constexpr const char* kHint = "see drivers/usb/gadget/README.md of dicot for what each board needs";
+constexpr const char* kHint = "what each board needs is in /usr/share/doc/dicot/README.Debian";
 
 Status refused(const std::string& path, const char* what, int why)
 {
