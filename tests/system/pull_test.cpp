@@ -177,6 +177,26 @@ TEST_F(Pull, mends_a_damaged_archive_when_it_shall_verify)
     EXPECT_EQ(archive_json("status")["in_quarantine"], 1);
 }
 
+TEST_F(Pull, has_its_archive_left_alone_by_those_who_write_stores)
+{
+    ASSERT_EQ(pull(folder_->path("first")).exit_code, 0);
+    for (const char* const gone : {"", "/bench/LAST_PULL"}) { // a first pull that was killed has only its mark
+        if (gone[0] != '\0')
+            fs::remove(archive() + gone);
+        const std::string look = "cd '" + archive() + "' && find . | sort | xargs stat -c '%n %s'";
+        const std::string before = run(look).output;
+        for (const ToolRun& told :
+             {ask("prune", archive(), "--older-than 1"), ask("verify", archive(), "--repair"), snap(archive())}) {
+            EXPECT_EQ(told.exit_code, 64) << told.output;
+            EXPECT_THAT(told.output, HasSubstr("dicot archive"));
+        }
+        for (const ToolRun& told : {ask("list", archive()), ask("verify", archive()), ask("show", archive(), "1")})
+            EXPECT_EQ(told.exit_code, 0) << told.output;
+        EXPECT_EQ(run(look).output, before);
+    }
+    EXPECT_EQ(pull(folder_->path("first")).exit_code, 0);
+}
+
 TEST_F(Pull, says_in_a_sentence_what_cannot_be)
 {
     EXPECT_EQ(pull(own_.path("nowhere")).exit_code, 66);

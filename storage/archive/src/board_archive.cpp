@@ -95,6 +95,7 @@ Status DiskArchive::start(std::string_view serial)
     const Errno made = medium_.make_folder(kIncoming);
     if (made.number() != EEXIST)
         TRY(on_disk(made, kIncoming, "making a folder"));
+    TRY(mark_archive(medium_));
     TRY(make_it_this_boards(serial));
     const Result<bool> listed = for_each_folder(medium_, [&](const StorePath&, const SnapshotName& name) {
         here_.emplace(name.sequence, name.began_us);

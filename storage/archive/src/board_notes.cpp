@@ -59,6 +59,16 @@ bool is_serial(std::string_view serial)
 
 } // namespace
 
+Status mark_archive(Medium& medium)
+{
+    if (is_there(medium, kArchiveMark))
+        return {};
+    Medium::File file = 0;
+    TRY(on_disk(medium.create(kArchiveMark, file), kArchiveMark, "making it"));
+    TRY(on_disk(medium.close(file), kArchiveMark, "closing it"));
+    return on_disk(medium.sync_folder(""), kArchiveMark, "syncing");
+}
+
 std::string read_board(Medium& medium)
 {
     const std::string text = read_text(medium, kBoardFile);

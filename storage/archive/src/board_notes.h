@@ -11,8 +11,8 @@
 
 namespace dicot {
 
-inline constexpr const char* kBoardFile = "BOARD";
-inline constexpr const char* kLastPullFile = "LAST_PULL";
+/// ARCHIVE, by which a store's writer knows that the folder is none of its own; synced. Fault::kIoError.
+Status mark_archive(Medium& medium);
 
 /// The board's serial number; empty: the file is missing, or cannot be read.
 std::string read_board(Medium& medium);

@@ -69,6 +69,11 @@ bool is_there(Medium& medium, const char* path)
     return medium.kind_of(path, kind).ok();
 }
 
+bool is_archive(Medium& medium)
+{
+    return is_there(medium, kArchiveMark) || is_there(medium, kBoardFile) || is_there(medium, kLastPullFile);
+}
+
 CardFile::~CardFile()
 {
     if (open_)

@@ -25,6 +25,9 @@ Status opened(Errno outcome, const char* path);
 
 bool is_there(Medium& medium, const char* path);
 
+/// The root is a board's folder in an archive.
+bool is_archive(Medium& medium);
+
 /// A file that is being written; closed, but not removed, when it is let go.
 class CardFile final : public ByteSink
 {

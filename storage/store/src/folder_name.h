@@ -17,7 +17,12 @@ using StorePath = ShortText<127>;
 inline constexpr const char* kIncoming = "incoming";     ///< snapshots that are being written
 inline constexpr const char* kLeaving = "leaving";       ///< snapshots that are being deleted
 inline constexpr const char* kQuarantine = "quarantine"; ///< what was damaged
-inline constexpr const char* kBallast = "ballast";       ///< room for the record of a miss on a full card
+
+/// What stands in an archive on a computer: it is no store to write to.
+inline constexpr const char* kArchiveMark = "ARCHIVE";
+inline constexpr const char* kBoardFile = "BOARD";
+inline constexpr const char* kLastPullFile = "LAST_PULL";
+inline constexpr const char* kBallast = "ballast"; ///< room for the record of a miss on a full card
 inline constexpr const char* kWriting = "writing"; ///< there while a process writes: left behind, it was interrupted
 
 /// A row that knows no more than the name.

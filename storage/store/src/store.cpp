@@ -93,6 +93,9 @@ Status CardStore::start(const std::string& path, const char* vfs)
     if (locked.number() == EWOULDBLOCK)
         return failure(Fault::kTryAgain, "another dicot writes to this store; wait until it has finished");
     TRY(on_card(locked, "", "locking it"));
+    if (is_archive(medium_))
+        return failure(Fault::kUsage, "this is an archive of what was pulled, and no board's store: nothing is written "
+                                      "or deleted in it; dicot archive looks after it");
     if (!make_rooms(medium_).ok() && release_ballast(medium_))
         TRY(make_rooms(medium_));
     TRY(make_rooms(medium_));
@@ -267,7 +270,8 @@ Result<VerifyReport> verify_store(Medium& medium, const std::string& path, Funct
     VerifyReport report = TRY(verify_folders(medium, *catalogue, desk, Verify::kOnly, found, progress));
     // The rows were then made of the folders. A copy has none, and no room for what is being written.
     const auto opened = Catalogue::open(path, Catalogue::Access::kRead);
-    const bool is_missed = opened.status().fault() == Fault::kNoInput && is_there(medium, kIncoming);
+    const bool is_missed =
+        opened.status().fault() == Fault::kNoInput && is_there(medium, kIncoming) && !is_archive(medium);
     if (opened.status().fault() == Fault::kBadData || is_missed) {
         ++report.findings;
         found({Finding::Kind::kCatalogue, 0, Store::kCatalogueName, opened.status().message(), false});

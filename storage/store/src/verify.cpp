@@ -71,6 +71,15 @@ void Verifier::find(Kind kind, std::int64_t sequence, const StorePath& path, con
     found_({kind, sequence, path.c_str(), sentence, mended});
 }
 
+/// Also one that is being written, or is to be replaced.
+bool is_note_of_archive(std::string_view name)
+{
+    for (const std::string_view note : {kArchiveMark, kBoardFile, kLastPullFile})
+        if (name.starts_with(note) && (name == note || name.substr(note.size()) == ".new"))
+            return true;
+    return false;
+}
+
 /// What the store makes beside the days.
 bool is_known(const MediumEntry& entry)
 {
@@ -78,7 +87,7 @@ bool is_known(const MediumEntry& entry)
         return entry.name == kIncoming || entry.name == kLeaving || entry.name == kQuarantine;
     const std::string_view catalogue = Store::kCatalogueName;
     return entry.kind == EntryKind::kFile &&
-           (entry.name == kBallast || entry.name == kWriting ||
+           (entry.name == kBallast || entry.name == kWriting || is_note_of_archive(entry.name) ||
             (entry.name.starts_with(catalogue) &&
              (entry.name.size() == catalogue.size() || entry.name.substr(catalogue.size()) == "-wal" ||
               entry.name.substr(catalogue.size()) == "-shm" || entry.name.substr(catalogue.size()) == "-journal")));

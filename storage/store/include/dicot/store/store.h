@@ -110,7 +110,8 @@ class Store
 {
 public:
     /// Repairs what an interruption left. `catalogue`: the file's path, as SQLite opens it (kCatalogueName in the
-    /// medium's root); `vfs` as for Catalogue::open(). Fault::kTryAgain: another process writes; kIoError: the card
+    /// medium's root); `vfs` as for Catalogue::open(). Fault::kTryAgain: another process writes; kUsage: it is an
+    /// archive, which dicot pull writes; kIoError: the card
     /// failed, is full or read-only.
     static Result<std::unique_ptr<Store>> open(Medium& medium, const StoreRules& rules, const std::string& catalogue,
                                                const char* vfs = nullptr);
