@@ -74,7 +74,7 @@ public:
     /// Of a folder. FAT never changes that of its root.
     virtual Errno stamp(const char* path, FolderStamp& stamp) = 0;
 
-    virtual Errno create(const char* path, File& file) = 0;               ///< a new file for writing: EEXIST
+    virtual Errno create(const char* path, File& file) = 0; ///< a new file for writing: EEXIST
     /// A file that is there, for writing behind its `size_bytes`; files alone. ENOENT
     virtual Errno append(const char* path, File& file, std::uint64_t& size_bytes) = 0;
     virtual Errno write(File file, std::span<const std::byte> bytes) = 0; ///< all of them, behind what is there
