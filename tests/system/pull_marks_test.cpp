@@ -124,6 +124,13 @@ TEST(PullMarks, that_are_full_while_the_board_is_busy_come_later)
 TEST(PullMarks, are_not_offered_twice_to_who_takes_none)
 {
     MarkingSource source;
+    source.answer = failure(Fault::kBadData, "other digests");
+    PullReport refused;
+    PullMarks wrong(source, refused, 0);
+    add(wrong, 1, 3);
+    wrong.tell(true);
+    EXPECT_EQ(refused.mark_refused, 3);
+    source.calls.clear();
     source.answer = failure(Fault::kUsage, "usb.marks is off");
     PullReport report;
     PullMarks marks(source, report, 0);

@@ -66,7 +66,7 @@ std::string summary_words(const std::string& device, const ArchiveSummary& summa
         text += "  missed " + std::to_string(count) + ": " + shown(reason) + "\n";
     if (!look.waiting.empty())
         text += "  not here, and still on the board at the last pull: " + std::to_string(look.waiting.count()) + " (" +
-                shown_ranges(look.waiting) + ")\n";
+                shown_ranges(look.waiting) + "): dicot pull takes them, --all also those that another computer has\n";
     if (!look.lost.empty())
         text += "  not here, and no longer on the board at the last pull: " + std::to_string(look.lost.count()) + " (" +
                 shown_ranges(look.lost) + ")\n";

@@ -131,7 +131,7 @@ Status print(const Words& words, const PullWishes& wishes, const std::vector<Pul
         std::printf("%s\n",
                     json_text({{"archive", wishes.archive}, {"boards", boards}, {"unopened", unopened}}).c_str());
     } else if (!reports.empty())
-        std::printf("%s%s\n", pull_table(reports).c_str(), shown(wishes.archive).c_str());
+        std::printf("%sthe archive: %s\n", pull_table(reports).c_str(), shown(wishes.archive).c_str());
     return worst.worst();
 }
 

@@ -75,6 +75,7 @@ private:
     bool sizes_known_ = true;
     NumberRanges had_;
     int failures_ = 0; ///< in a row
+    bool went_away_ = false;
 };
 
 Status BoardPull::run()
@@ -89,7 +90,7 @@ Status BoardPull::run()
         offer_time();
     TRY(list());
     const Status taken = in_store(folder, take_all());
-    marks_.tell(!StopRequest::asked() && taken.fault() != Fault::kUnavailable);
+    marks_.tell(!StopRequest::asked() && !went_away_);
     const Status noted = in_store(folder, archive_->note({utc_now_us(), std::move(had_)}));
     TRY(taken);
     TRY(noted);
@@ -168,7 +169,8 @@ Status BoardPull::take_one(const OfferedSnapshot& offered, int line)
         return !StopRequest::asked();
     };
     Result<Taken> taken = archive_->take(source_, offered, wishes_.verify, arrived);
-    if (taken.status().fault() == Fault::kUnavailable)
+    went_away_ = taken.status().fault() == Fault::kUnavailable;
+    if (went_away_)
         return failure(Fault::kTryAgain,
                        "it went away after %lld of %zu snapshots (%.150s); plug it in and pull again: it "
                        "goes on there",
@@ -249,6 +251,12 @@ Status BoardPull::verdict() const
                        "%s damaged at the source, %lld in conflict with the archive: named above; dicot "
                        "verify --repair on the board puts damaged ones aside",
                        counted(report_.damaged, "snapshot").c_str(), static_cast<long long>(report_.conflicts));
+    if (report_.mark_refused > 0)
+        return failure(
+            Fault::kBadData,
+            "the board took no mark for %s that came from it: its digests there are others now; dicot verify "
+            "on the board says more",
+            counted(report_.mark_refused, "snapshot").c_str());
     if (report_.unreadable > 0)
         return failure(Fault::kTryAgain, "%s could not be read now: pull again",
                        counted(report_.unreadable, "snapshot").c_str());
@@ -282,6 +290,7 @@ PullReport pull_board(PullSource& source, const PullWishes& wishes, BoardNames& 
     report.device = source.device();
     report.serial = source.serial();
     report.where = source.where();
+    report.takes_marks = source.takes_marks();
     if (!is_device_name(report.device))
         report.outcome = failure(Fault::kBadData, "a board cannot be called %s", shown(report.device).c_str());
     else

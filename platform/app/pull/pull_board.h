@@ -40,6 +40,8 @@ struct PullReport
     std::int64_t put_aside = 0;    ///< damaged here, and taken anew
     std::int64_t marked = 0;       ///< the board knows now
     std::int64_t unmarked = 0;     ///< it was busy: the next pull tells it
+    std::int64_t mark_refused = 0; ///< it says that it has others of these numbers
+    bool takes_marks = true;       ///< a folder never does
     std::string marks_why;         ///< why it takes no marks; empty: it does
     std::string clock;             ///< what became of the time; empty: nobody asked
     Status outcome;

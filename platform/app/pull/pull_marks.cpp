@@ -52,7 +52,10 @@ void PullMarks::tell(std::span<const PullSource::Pulled> batch, bool patient)
         return;
     case Fault::kUsage:
         takes_marks_ = false;
-        report_.marks_why = marked.message();
+        if (StopRequest::asked()) // that is no rule of the board's
+            report_.unmarked += count;
+        else
+            report_.marks_why = marked.message();
         return;
     case Fault::kTryAgain:
         if (!patient)
@@ -67,7 +70,8 @@ void PullMarks::tell(std::span<const PullSource::Pulled> batch, bool patient)
             tell(batch.first(batch.size() / 2), patient);
             if (takes_marks_)
                 tell(batch.subspan(batch.size() / 2), patient);
-        }
+        } else if (marked.fault() == Fault::kBadData)
+            ++report_.mark_refused;
         return;
     default:
         report_.unmarked += count;

@@ -37,6 +37,8 @@ std::string notes_of(const PullReport& report)
         notes += board + counted(report.gone, "snapshot") + " pruned on the board before they could be pulled\n";
     if (report.put_aside > 0)
         notes += board + counted(report.put_aside, "snapshot") + " damaged here, now in quarantine/\n";
+    if (report.takes_marks && !report.marks_why.empty())
+        notes += board + "not told what is here, so it keeps all for others: " + shown(report.marks_why) + "\n";
     if (!report.clock.empty())
         notes += board + "clock " + shown(report.clock) + "\n";
     return notes;
@@ -49,7 +51,7 @@ std::string pull_table(const std::vector<PullReport>& reports)
     std::size_t width = 5;
     for (const PullReport& report : reports)
         width = std::max(width, std::min<std::size_t>(report.device.size(), 63));
-    std::string text = row_of("board", "new", "size", "there", "left", "trouble", "from", width);
+    std::string text = row_of("board", "new", "size", "there", "left", "failed", "from", width);
     for (const PullReport& report : reports) {
         const std::int64_t trouble = report.damaged + report.conflicts + report.unreadable;
         text += row_of(shown(report.device), number(report.fresh).c_str(),
@@ -81,6 +83,7 @@ nlohmann::json pull_json(const PullReport& report)
                            {"put_aside", report.put_aside},
                            {"marked", report.marked},
                            {"unmarked", report.unmarked},
+                           {"mark_refused", report.mark_refused},
                            {"marks_refused", report.marks_why},
                            {"exit_code", report.outcome.exit_code()}};
     if (!report.clock.empty())
