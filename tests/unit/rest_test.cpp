@@ -142,6 +142,18 @@ TEST_F(RestTest, NeitherSleepsNorIsPoweredOffWhileAComputerIsAtTheCable)
     }
 }
 
+TEST_F(RestTest, GivesAComputerAMomentToSeeTheBoardBeforeItSleeps)
+{
+    RestRules patient = rules(Between::kSuspend);
+    patient.awake_first_us = kMinute;
+    Rest rest(board_, lead_, patient);
+    (void)rest.begun();
+    const std::int64_t began_us = board_.now_us();
+    EXPECT_EQ(rest.until({kNoon + kHour, 1}, go_on).way, Between::kIdle);
+    EXPECT_EQ(board_.now_us(), began_us + kMinute);
+    EXPECT_EQ(rest.until({kNoon + kHour, 1}, go_on).way, Between::kSuspend);
+}
+
 TEST(LinuxBoard, SeesAComputerThatHasConfiguredItsGadget)
 {
     TempFolder sys;

@@ -6,7 +6,7 @@
 
 #include "dicot/medium/disk_medium.h"
 #include "dicot/pull_archive/folder_source.h"
-#include "dicot/store/look.h"
+#include "dicot/record/record.h"
 
 #include <nlohmann/json.hpp>
 
@@ -21,33 +21,59 @@ namespace fs = std::filesystem;
 /// Where the service of the package keeps them, on a card that holds a whole system.
 constexpr const char* kOnACard = "var/lib/dicot/clouds";
 
-/// The board's name as its newest readable record has it; empty: nobody says.
+/// The board's name in the record of a snapshot; empty: it does not say.
+std::string name_in(PullSource& source, const OfferedSnapshot& snapshot)
+{
+    std::vector<std::byte> text(kMaxRecordBytes);
+    std::size_t got = 0;
+    const Status looked = source.files(snapshot, [&](const OfferedFile& file) {
+        if (file.name.view() != "record.json")
+            return true;
+        if (const auto read = source.read(file, 0, text); read.ok())
+            got = read.value();
+        return false;
+    });
+    const auto* const begin = reinterpret_cast<const char*>(text.data());
+    const nlohmann::json record = nlohmann::json::parse(begin, begin + got, nullptr, false);
+    if (!looked.ok() || !record.is_object() || !record.contains("device") || !record["device"].is_string())
+        return {};
+    const std::string name = record["device"].get<std::string>();
+    return is_device_name(name) ? name : std::string{};
+}
+
+/// The board's name as one of its first records has it; empty: nobody says. The catalogue is left alone: SQLite writes
+/// beside what it reads.
 Result<std::string> recorded_name(const std::string& path)
 {
-    const ReadStore store = TRY(ReadStore::open(path));
-    std::string name;
-    TRY(store.catalogue->for_each({}, [&](const SlotRow& row) {
-        if (row.kept != Kept::kHere)
-            return true;
-        const Result<std::string> text = read_record_text(*store.medium, row);
-        if (!text.ok())
-            return true;
-        const nlohmann::json record = nlohmann::json::parse(text.value(), nullptr, false);
-        if (record.is_object() && record.contains("device") && record["device"].is_string())
-            name = record["device"].get<std::string>();
-        return !is_device_name(name);
+    constexpr int kMostAsked = 16;
+    std::unique_ptr<Medium> medium = TRY(open_disk_medium(path));
+    const auto source = TRY(open_folder_source(std::move(medium), "unknown", path));
+    std::vector<OfferedSnapshot> first;
+    TRY(source->snapshots(0, [&](const OfferedSnapshot& snapshot) {
+        first.push_back(snapshot);
+        return first.size() < kMostAsked;
     }));
-    return is_device_name(name) ? name : std::string{};
+    std::string name;
+    for (auto snapshot = first.begin(); name.empty() && snapshot != first.end(); ++snapshot)
+        name = name_in(*source, *snapshot);
+    return name;
+}
+
+/// What its records say; else what its folder is called; empty: neither is a board's name.
+Result<std::string> name_of(const std::string& path)
+{
+    if (std::string recorded = TRY(recorded_name(path)); !recorded.empty())
+        return recorded;
+    const std::string folder = fs::path(path + "/").parent_path().filename().string();
+    return is_device_name(folder) ? folder : std::string{};
 }
 
 Result<std::vector<DeviceFolder>> boards_in(const std::string& folder)
 {
     std::vector<DeviceFolder> boards;
     if (TRY(is_device_folder(folder))) {
-        std::string name = TRY(recorded_name(folder));
+        const std::string name = TRY(name_of(folder));
         if (name.empty())
-            name = fs::path(folder + "/").parent_path().filename().string();
-        if (!is_device_name(name))
             return failure(Fault::kBadData,
                            "%s: no record in it says what the board is called: name the folder as the board is",
                            shown(folder).c_str());
@@ -58,12 +84,14 @@ Result<std::vector<DeviceFolder>> boards_in(const std::string& folder)
     for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator{};
          entry.increment(error)) {
         std::error_code unknown;
-        const std::string name = entry->path().filename().string();
-        if (!fs::is_directory(entry->symlink_status(unknown)) || !is_device_name(name))
+        if (!fs::is_directory(entry->symlink_status(unknown)))
             continue;
-        const Result<bool> is_board = is_device_folder(entry->path().string());
-        if (is_board.ok() && is_board.value())
-            boards.push_back({name, entry->path().string()});
+        const std::string path = entry->path().string();
+        const Result<bool> is_board = is_device_folder(path);
+        if (!is_board.ok() || !is_board.value())
+            continue;
+        if (std::string board = TRY(name_of(path)); !board.empty())
+            boards.push_back({std::move(board), path});
     }
     std::ranges::sort(boards, {}, &DeviceFolder::device);
     return boards;

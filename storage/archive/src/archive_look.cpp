@@ -119,7 +119,8 @@ Result<ArchiveLook> look_at_archive(Medium& medium, FunctionRef<void(const Recor
     look.incomplete = folders_in(medium, kIncoming,
                                  [&](const StorePath& folder) { look.incomplete_bytes += bytes_in(medium, folder); });
     look.in_quarantine = folders_in(medium, kQuarantine, [](const StorePath&) {});
-    look.serial = read_board(medium);
+    if (Result<std::string> serial = read_board(medium); serial.ok())
+        look.serial = std::move(serial.value());
     if (auto last = read_last_pull(medium)) {
         look.pulled_us = last->pulled_us;
         look.had = std::move(last->had);

@@ -129,7 +129,7 @@ Status DiskArchive::make_it_this_boards(std::string_view serial)
 {
     if (serial.empty())
         return {};
-    const std::string known = read_board(medium_);
+    const std::string known = TRY(read_board(medium_));
     serial_known_ = true;
     if (known == serial)
         return {};

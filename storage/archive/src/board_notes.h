@@ -14,8 +14,8 @@ namespace dicot {
 /// ARCHIVE, by which a store's writer knows that the folder is none of its own; synced. Fault::kIoError.
 Status mark_archive(Medium& medium);
 
-/// The board's serial number; empty: the file is missing, or cannot be read.
-std::string read_board(Medium& medium);
+/// The board's serial number; empty: nobody noted one. Fault::kBadData, kIoError: it cannot be read.
+Result<std::string> read_board(Medium& medium);
 /// Written once, synced. Fault::kBadData: no line of printable text of 126 bytes at most; kIoError.
 Status write_board(Medium& medium, std::string_view serial);
 

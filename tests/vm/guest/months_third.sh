@@ -55,7 +55,7 @@ judge cable.marked eval 'slots | grep -c "\"pulled\": *\"2" | grep -x 17'
 sleeps() { cat /sys/power/suspend_stats/success /sys/power/suspend_stats/fail; }
 keeps_it_awake() {
     before=$(sleeps)
-    sleep 60
+    sleep 90
     shown && [ "$(sleeps)" = "$before" ]
 }
 judge cable.keeps_it_awake keeps_it_awake

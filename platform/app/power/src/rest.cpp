@@ -92,6 +92,7 @@ Woken Rest::begun() noexcept
     const std::optional<RestMark> mark = read_mark(mark_.c_str());
     const std::int64_t up_us = board_.boottime_us();
     const std::int64_t now_us = board_.now_us();
+    awake_until_us_ = up_us + rules_.awake_first_us;
     const BootId boot = board_.boot();
     const bool same_boot = mark && std::string_view{mark->boot.text} == boot.text;
     if (same_boot || (!mark && up_us > kFreshBootUs)) {
@@ -122,8 +123,9 @@ std::int64_t Rest::stays_on_until_us() noexcept
     if (rules_.between == Between::kIdle)
         return 0;
     const std::int64_t up_us = board_.boottime_us();
-    if (rules_.between == Between::kOff && up_us < on_until_us_)
-        return on_until_us_;
+    const std::int64_t first_us = rules_.between == Between::kOff ? on_until_us_ : awake_until_us_;
+    if (up_us < first_us)
+        return first_us;
     return board_.computer_is_there() ? up_us + kVisitUs : 0;
 }
 

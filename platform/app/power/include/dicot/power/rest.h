@@ -52,6 +52,7 @@ struct RestRules
 {
     Between between = Between::kIdle;
     std::int64_t least_rest_us = 120'000'000;      ///< shorter pauses are idled
+    std::int64_t awake_first_us = 0;               ///< after a start: so long it does not sleep
     std::int64_t step_us = 20'000'000;             ///< at most between two calls of `step`
     std::int64_t unanswered_us = 300'000'000;      ///< a request to power off is withdrawn after so long
     ShortText<255> state = "/var/lib/dicot/state"; ///< folder of the mark
@@ -117,8 +118,9 @@ private:
     LeadTime& lead_;
     RestRules rules_;
     ShortText<255> mark_;
-    std::int64_t on_until_us_ = 0; ///< by boottime_us(): before that the board is not powered off
-    ShortText<255> told_;          ///< the last trouble, so that it is told once
+    std::int64_t awake_until_us_ = 0; ///< by boottime_us(): before that it does not sleep
+    std::int64_t on_until_us_ = 0;    ///< by boottime_us(): before that the board is not powered off
+    ShortText<255> told_;             ///< the last trouble, so that it is told once
 };
 
 } // namespace dicot::app
