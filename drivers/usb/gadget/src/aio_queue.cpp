@@ -72,7 +72,9 @@ int AioQueue::reap() noexcept
         if (count <= 0)
             return all;
         for (long i = 0; i < count; ++i) {
-            auto* transfer = reinterpret_cast<Transfer*>(static_cast<std::uintptr_t>(ended[i].data));
+            // The kernel gives back the number that submit() made of the pointer.
+            const auto number = static_cast<std::uintptr_t>(ended[i].data);
+            auto* transfer = reinterpret_cast<Transfer*>(number); // NOLINT(performance-no-int-to-ptr)
             transfer->under_way = false;
             transfer->result = ended[i].res;
         }
