@@ -152,9 +152,10 @@ clang() {
 # clang's sanitizers, and the tree whose fuzz targets the stage fuzz runs: one instrumented build for both.
 asan() {
     build fuzz || return
-    # Three that repeat for minutes what others do once.
-    count_ctest .build/fuzz -j "$(nproc)" -LE fuzz \
-        -E 'SpreadOfManyCalibrations|SpreadsAsItsCovarianceSays|KeptPairsGiveBeforeRealCameras' || return
+    # Those that repeat for long what others do once.
+    long='SpreadOfManyCalibrations|SpreadsAsItsCovarianceSays|KeptPairsGiveBeforeRealCameras|ThousandsTakeNoTime'
+    long="$long|CalibrateLive.CalibratesWithThePairsOfItsTime|WritesTheSameBytesWithAnyNumberOfThreads"
+    count_ctest .build/fuzz -j "$(nproc)" -LE fuzz -E "$long" || return
 }
 
 tsan() {
