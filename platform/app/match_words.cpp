@@ -25,8 +25,9 @@ void MatchWords::add_to(CLI::App& command)
 
 void MatchWords::add_all_but_threads_to(CLI::App& command)
 {
-    command.add_option("--method", method, "paper: the published equations alone; standard: checked and refined")
-        ->check(CLI::IsMember({"paper", "standard"}))
+    command.add_option("--method", method, "paper: the published equations alone; standard: checked and refined; "
+                                         "fast: a part of its time; best: twice its time")
+        ->check(CLI::IsMember({"paper", "fast", "standard", "best"}))
         ->capture_default_str();
     command.add_option("--cost", cost, "matching cost: AD-Census, or truncated absolute differences")
         ->check(CLI::IsMember({"adcensus", "tad"}))
@@ -43,7 +44,10 @@ void MatchWords::add_all_but_threads_to(CLI::App& command)
 MatchOptions MatchWords::resolved() const
 {
     MatchOptions resolved = options;
-    resolved.method = method == "paper" ? MatchMethod::kPaper : MatchMethod::kStandard;
+    resolved.method = method == "paper"  ? MatchMethod::kPaper
+                      : method == "fast" ? MatchMethod::kFast
+                      : method == "best" ? MatchMethod::kBest
+                                         : MatchMethod::kStandard;
     resolved.cost = cost == "tad" ? MatchCost::kTad : MatchCost::kAdCensus;
     return resolved;
 }

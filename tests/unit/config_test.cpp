@@ -72,7 +72,7 @@ const Promise kPromises[] = {
     {"rig", "file", {R"("/a/b.yaml")"}, {R"("")", R"("a\u0000b")", R"("a\u001b")", "1", "false"}},
     {"rig", "near_mm", {"1", "1000000", "250.5"}, {"0.5", "1000001", "nan", "\"1\""}},
     {"rig", "far_mm", {"1", "1000000"}, {"0", "1000000.5", "[]"}},
-    {"matching", "method", {R"("paper")", R"("standard")"}, {R"("fast")", "1"}},
+    {"matching", "method", {R"("paper")", R"("fast")", R"("standard")", R"("best")"}, {R"("quick")", "1"}},
     {"matching", "cost", {R"("adcensus")", R"("tad")"}, {R"("census")", "true"}},
     {"matching", "window", {"3", "33", "35"}, {"1", "2", "34", "37", "-3", "5.0"}},
     {"matching", "gamma_color", {"0.5", "100"}, {"0.4", "100.1"}},

@@ -74,7 +74,7 @@ struct RigConfig
 /// As the words of the same names on the command line (match_words.h).
 struct MatchingConfig
 {
-    std::string method = "standard"; ///< "paper", "standard"
+    std::string method = "standard"; ///< "paper", "fast", "standard", "best"
     std::string cost = "adcensus";   ///< "adcensus", "tad"
     int window = MatchOptions{}.window;
     double gamma_color = MatchOptions{}.gamma_color;
