@@ -42,7 +42,7 @@ PlantPair look_at(std::size_t plant, std::size_t light)
     print_row(pair.name.c_str(), "ours", leaf_figures(plant, pair.ours));
     print_row("", "SGBM", leaf_figures(plant, pair.peer));
     const std::string drawn = std::string(kPlants[plant]) + "_" + kLights[light];
-    draw_match(drawn, matched.map(), flat_left, own);
+    draw_match(drawn, matched.map(), flat_left, own, plant_truth(plant));
     draw_errors(drawn, pair, plant_truth(plant));
     return pair;
 }

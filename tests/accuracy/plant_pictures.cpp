@@ -46,21 +46,74 @@ Rgb8 darkened(Rgb8 pixel)
     return {third(pixel.r), third(pixel.g), third(pixel.b)};
 }
 
+/// The leaves' place in the picture, and in depth.
+struct Frame
+{
+    int left, top, right, bottom; ///< px, the last ones belong to it
+    double nearest_mm, farthest_mm;
+
+    int width() const { return right - left + 1; }
+    int height() const { return bottom - top + 1; }
+    void widen(int px, int picture_width, int picture_height)
+    {
+        left = std::max(0, left - px);
+        top = std::max(0, top - px);
+        right = std::min(picture_width - 1, right + px);
+        bottom = std::min(picture_height - 1, bottom + px);
+    }
+    template <typename Pixel>
+    ImageView<Pixel> of(ImageView<Pixel> whole) const
+    {
+        return {whole.row(top) + left, width(), height(), whole.stride};
+    }
+};
+
+Frame frame_of(const TrueDepth& truth)
+{
+    Frame frame{truth.width, truth.height, -1, -1, 1e9, 0};
+    for (int y = 0; y < truth.height; ++y)
+        for (int x = 0; x < truth.width; ++x) {
+            const auto i = static_cast<std::size_t>(y * truth.width + x);
+            if (!truth.leaf[i])
+                continue;
+            frame.left = std::min(frame.left, x);
+            frame.right = std::max(frame.right, x);
+            frame.top = std::min(frame.top, y);
+            frame.bottom = std::max(frame.bottom, y);
+            frame.nearest_mm = std::min(frame.nearest_mm, static_cast<double>(truth.mm[i]));
+            frame.farthest_mm = std::max(frame.farthest_mm, static_cast<double>(truth.mm[i]));
+        }
+    return frame;
+}
+
 } // namespace
 
-void draw_match(const std::string& name, const DisparityMap& map, const Picture& flat_left, const RectifiedView& view)
+void draw_match(const std::string& name, const DisparityMap& map, const Picture& flat_left, const RectifiedView& view,
+                const TrueDepth& truth)
 {
     Picture disparities = blank(flat_left.width, flat_left.height);
     paint_disparities(map, disparities.view());
     write(name + "_disparity", disparities);
 
-    const RigGeometry rig = view.geometry();
-    const Triangulation how = triangulation_for(rig, kWorkingRange, grid_for(rig, kWorkingRange).value()).value();
-    Picture views = blank(2 * flat_left.width, flat_left.height);
+    constexpr int kAroundPx = 40;
+    constexpr double kAroundMm = 100;
+    Frame frame = frame_of(truth);
+    frame.widen(kAroundPx, truth.width, truth.height);
+    const WorkingRange range{frame.nearest_mm - kAroundMm, frame.farthest_mm + kAroundMm};
+    RigGeometry rig = view.geometry();
+    rig.cx_px -= frame.left;
+    rig.cy_px -= frame.top;
+    rig.width = frame.width();
+    rig.height = frame.height();
+    DisparityMap cut = map;
+    cut.relative = frame.of(map.relative);
+    cut.confidence = frame.of(map.confidence);
+    const Triangulation how = triangulation_for(rig, range, grid_for(rig, range).value()).value();
+    Picture views = blank(2 * rig.width, rig.height);
     const auto draw = [&](Arena& arena) {
-        const Triangulated made = triangulate(map, flat_left.view(), how, arena);
+        const Triangulated made = triangulate(cut, frame.of(flat_left.view()), how, arena);
         if (arena.measuring())
-            lay_out_render(arena, flat_left.width, flat_left.height);
+            lay_out_render(arena, rig.width, rig.height);
         else
             render_two_views(made.cloud, rig.focal_px, views.view(), arena);
     };
@@ -74,20 +127,12 @@ void draw_match(const std::string& name, const DisparityMap& map, const Picture&
 
 void draw_errors(const std::string& name, const PlantPair& pair, const TrueDepth& truth)
 {
-    int left = truth.width, right = -1, top = truth.height, bottom = -1;
-    for (int y = 0; y < truth.height; ++y)
-        for (int x = 0; x < truth.width; ++x)
-            if (truth.leaf[static_cast<std::size_t>(y * truth.width + x)]) {
-                left = std::min(left, x);
-                right = std::max(right, x);
-                top = std::min(top, y);
-                bottom = std::max(bottom, y);
-            }
-    const int width = right - left + 1, height = bottom - top + 1;
-    Picture drawn = blank(3 * width, height);
-    for (int y = 0; y < height; ++y)
+    const Frame frame = frame_of(truth);
+    const int width = frame.width();
+    Picture drawn = blank(3 * width, frame.height());
+    for (int y = 0; y < drawn.height; ++y)
         for (int x = 0; x < width; ++x) {
-            const auto i = static_cast<std::size_t>((y + top) * truth.width + x + left);
+            const auto i = static_cast<std::size_t>((y + frame.top) * truth.width + x + frame.left);
             drawn.view().at(x, y) = pair.left.pixels[i];
             int panel = 1;
             for (const RawDepth* depth : {&pair.ours, &pair.peer})
