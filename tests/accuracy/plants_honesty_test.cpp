@@ -13,6 +13,20 @@
 namespace dicot::test {
 namespace {
 
+TEST(Sparsification, AreasOfAFewPixelsAreThoseWorkedOutByHand)
+{
+    // Kept: the first, then both: means 0 and 1/2.
+    EXPECT_DOUBLE_EQ(sparsified({{1, 10}, {0, 200}}).area, 0.25);
+    EXPECT_DOUBLE_EQ(sparsified({{1, 10}, {0, 200}}).ratio(), 1);
+    // The wrong one is kept: 1, 1/2.
+    EXPECT_DOUBLE_EQ(sparsified({{1, 200}, {0, 10}}).area, 0.75);
+    // They leave together: 1/2, 1/2.
+    EXPECT_DOUBLE_EQ(sparsified({{1, 7}, {0, 7}}).area, 0.5);
+    EXPECT_DOUBLE_EQ(sparsified({{1, 7}, {0, 7}}).ratio(), 2);
+    // Ideal of 0, 2, 4: 0, 1, 2.
+    EXPECT_DOUBLE_EQ(sparsified({{4, 1}, {0, 2}, {2, 3}}).ideal, 1);
+}
+
 bool within_range(float mm)
 {
     return mm >= float{kWorkingRange.near_mm} && mm <= float{kWorkingRange.far_mm};
