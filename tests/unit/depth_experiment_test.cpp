@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -50,7 +52,7 @@ std::vector<TrendPoint> errors(double same_mm, double share, double px)
     std::vector<TrendPoint> points;
     double wobble = 0.01; // px, of the matcher
     for (double z = 488; z < 1400; z += 50) {
-        points.push_back({z, same_mm + share * z + (px + wobble) * z * z / kDepthPxMm});
+        points.push_back({z, same_mm + share * z + (px + wobble) * z * z / kDepthPxMm, kDepthPxMm / z});
         wobble = -wobble;
     }
     return points;
@@ -71,13 +73,28 @@ TEST(ErrorTrend, EachCauseIsToldApartAndMeasured)
     EXPECT_GT(square.explained, 0.99);
 }
 
+TEST(ErrorTrend, APullTowardsWholePixelsIsNoFaultOfTheRig)
+{
+    std::vector<TrendPoint> points = errors(0, 0, 0);
+    for (TrendPoint& p : points) {
+        // Nothing is lost on whole px and between two; the most, 0.125 px, a quarter away, towards the whole one.
+        const double fraction = p.disparity_px - std::round(p.disparity_px);
+        const double lost_px = 0.5 * std::min(std::fabs(fraction), 0.5 - std::fabs(fraction));
+        p.error_mm += std::copysign(lost_px, fraction) * p.distance_mm * p.distance_mm / kDepthPxMm;
+    }
+    const ErrorTrend trend = find_trend(points, kDepthPxMm);
+    EXPECT_EQ(trend.trend, Trend::kWhole);
+    EXPECT_NEAR(trend.amount, 0.125, 0.03);
+}
+
 TEST(ErrorTrend, TheMatchersOwnErrorIsNoCause)
 {
     const ErrorTrend none = find_trend(errors(0, 0, 0), kDepthPxMm);
     EXPECT_EQ(none.trend, Trend::kNone);
     EXPECT_NEAR(none.left_px, 0.01, 1e-6);
-    EXPECT_EQ(find_trend(std::vector<TrendPoint>{{500, 1}, {600, 1}, {700, 1}}, kDepthPxMm).trend, Trend::kTooFew);
-    EXPECT_EQ(find_trend(std::vector<TrendPoint>(9, {500, 1}), kDepthPxMm).trend, Trend::kTooFew);
+    EXPECT_EQ(find_trend(std::vector<TrendPoint>{{500, 1, 0}, {600, 1, 0}, {700, 1, 0}}, kDepthPxMm).trend,
+              Trend::kTooFew);
+    EXPECT_EQ(find_trend(std::vector<TrendPoint>(9, {500, 1, 0}), kDepthPxMm).trend, Trend::kTooFew);
 }
 
 TEST(DepthBound, HalfAPixelAt800MmIsTheFiveMillimetresOfThePaper)

@@ -191,7 +191,7 @@ Result<DepthRun> run_depths(const DepthWords& words)
         reading.bound_mm = depth_bound_mm(run.rig, target.distance_mm, kStepPx);
         reading.target = std::move(target);
         if (reading.measured())
-            points.push_back({reading.target.distance_mm, reading.face.error_mm});
+            points.push_back({reading.target.distance_mm, reading.face.error_mm, reading.face.disparity_px});
         run.readings.push_back(std::move(reading));
         ++progress.pair;
     }

@@ -25,6 +25,8 @@ const char* name_of(Trend trend)
         return "distance";
     case Trend::kSquare:
         return "square";
+    case Trend::kWhole:
+        return "whole pixels";
     }
     return "";
 }

@@ -14,10 +14,18 @@ constexpr std::size_t kLeastPoints = 4;
 constexpr double kLeastSpread = 1.1; // farthest to nearest
 
 /// What a cause of size 1 makes of a disparity, px: too small is above 0, as what is measured is then too far.
-double shape(Trend trend, double distance_mm, double depth_px_mm)
+double shape(Trend trend, const TrendPoint& point, double depth_px_mm)
 {
-    const double disparity_px = depth_px_mm / distance_mm;
-    return trend == Trend::kSame ? disparity_px / distance_mm : trend == Trend::kScale ? disparity_px : 1.0;
+    switch (trend) {
+    case Trend::kSame:
+        return depth_px_mm / (point.distance_mm * point.distance_mm);
+    case Trend::kScale:
+        return depth_px_mm / point.distance_mm;
+    case Trend::kWhole:
+        return std::sin(2 * std::numbers::pi * point.disparity_px);
+    default:
+        return 1;
+    }
 }
 
 } // namespace
@@ -36,11 +44,11 @@ ErrorTrend find_trend(std::span<const TrendPoint> points, double depth_px_mm)
         all += std::pow(p.error_mm * depth_px_mm / (p.distance_mm * p.distance_mm), 2);
     best.trend = Trend::kNone;
     best.left_px = std::sqrt(all / count);
-    for (const Trend cause : std::array{Trend::kSame, Trend::kScale, Trend::kSquare}) {
+    for (const Trend cause : std::array{Trend::kSame, Trend::kScale, Trend::kSquare, Trend::kWhole}) {
         double product = 0, square = 0;
         for (const TrendPoint& p : points) {
             const double px = p.error_mm * depth_px_mm / (p.distance_mm * p.distance_mm);
-            const double m = shape(cause, p.distance_mm, depth_px_mm);
+            const double m = shape(cause, p, depth_px_mm);
             product += px * m;
             square += m * m;
         }
@@ -49,9 +57,8 @@ ErrorTrend find_trend(std::span<const TrendPoint> points, double depth_px_mm)
             continue;
         best.explained = share;
         best.amount = product / square;
-        best.trend = share >= kTrendShare ? cause : Trend::kNone;
-        if (best.trend != Trend::kNone)
-            best.left_px = std::sqrt(std::max(0.0, all * (1 - share) / count));
+        best.trend = share >= kTrendShare && std::sqrt(all / count) > kQuietPx ? cause : Trend::kNone;
+        best.left_px = std::sqrt(best.trend == Trend::kNone ? all / count : std::max(0.0, all * (1 - share) / count));
     }
     return best;
 }
@@ -64,9 +71,9 @@ std::string sentence_of(const ErrorTrend& trend, double focal_px)
     case Trend::kTooFew:
         return "Four targets at different distances or more would tell where the errors come from.";
     case Trend::kNone:
-        return fill("No single cause over the distance stands out: what is seen is {} px of disparity (RMS), the "
-                    "matcher's own error.",
-                    {fixed(trend.left_px, 3)});
+        return fill("No single cause over the distance stands out: what is seen is {} px of disparity (RMS), {}.",
+                    {fixed(trend.left_px, 3),
+                     trend.left_px <= kQuietPx ? "as little as a matcher can reach" : "the matcher's own error"});
     case Trend::kSame:
         return fill("Everything seems {} mm too {} at every distance: were the distances measured from the left "
                     "camera's projection centre (some mm behind the front of its lens), along its axis?",
@@ -83,6 +90,11 @@ std::string sentence_of(const ErrorTrend& trend, double focal_px)
                     "not better than that.",
                     {fixed(std::abs(trend.amount), 3), trend.amount > 0 ? "small" : "large",
                      fixed(std::atan(std::abs(trend.amount) / focal_px) * 180 / std::numbers::pi, 4)}) +
+               rest;
+    case Trend::kWhole:
+        return fill("Disparities are pulled {} whole pixels, by {} px where they lie a quarter between two: neither "
+                    "the calibration nor the distances are to blame, but the matcher's step from whole px to parts.",
+                    {trend.amount > 0 ? "towards" : "away from", fixed(std::abs(trend.amount), 3)}) +
                rest;
     }
     return "";

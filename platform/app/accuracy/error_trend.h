@@ -10,25 +10,30 @@ namespace dicot::app {
 struct TrendPoint
 {
     double distance_mm = 0;
-    double error_mm = 0; ///< measured minus true
+    double error_mm = 0;     ///< measured minus true
+    double disparity_px = 0; ///< the true one
 };
 
 enum class Trend
 {
     kTooFew, ///< less than four distances, or all within a tenth
-    kNone,   ///< no one cause explains kTrendShare of what is seen
+    kNone,   ///< no one cause explains kTrendShare of what is seen, or that is less than kQuietPx
     kSame,   ///< the same at all distances: they were measured from another place than the projection centre
     kScale,  ///< in proportion to the distance: a wrong baseline or focal length
     kSquare, ///< in proportion to its square: every disparity is off by the same
+    kWhole,  ///< over the disparity's fraction: what is matched is pulled towards whole px
 };
 
 /// A cause is named when it explains this share of the squared errors at least.
 inline constexpr double kTrendShare = 0.6;
+/// Errors (RMS, as disparities) that no matcher is much better than: nothing to look for.
+inline constexpr double kQuietPx = 0.03;
 
 struct ErrorTrend
 {
     Trend trend = Trend::kTooFew;
-    double amount = 0;    ///< kSame: mm; kScale: share of the distance; kSquare: px that disparities are too small
+    double amount = 0;    ///< kSame: mm; kScale: share of the distance; kSquare: px that disparities are too small;
+                          ///< kWhole: px at a quarter between two whole ones
     double explained = 0; ///< share of the squared errors, 0 .. 1, of the cause that explains most
     double left_px = 0;   ///< RMS of what it does not explain, px of disparity
 };

@@ -107,7 +107,7 @@ FaceDepth measure(const Target& target, const Face& face, const LeftView& view, 
                   const DisparityRange& search, const DisparityMap& map)
 {
     FaceDepth found;
-    std::vector<double> errors;
+    std::vector<double> errors, disparities;
     const RigGeometry& rig = view.rig;
     const PictureRange& in = face.bounds();
     for (int y = in.top; y < in.bottom; ++y)
@@ -130,11 +130,13 @@ FaceDepth measure(const Target& target, const Face& face, const LeftView& view, 
                                                       dot(target.plane->normal, direction) * direction.z
                                                 : target.distance_mm;
             errors.push_back(depth_mm - true_mm);
+            disparities.push_back(rig.focal_px * rig.baseline_mm / true_mm * direction.z - rig.disparity_offset_px);
         }
     found.valued = static_cast<int>(errors.size());
     if (errors.empty())
         return found;
     found.error_mm = median(errors);
+    found.disparity_px = median(disparities);
     found.measured_mm = target.distance_mm + found.error_mm;
     std::vector<double> sizes, away;
     for (const double error : errors) {

@@ -60,12 +60,13 @@ PictureRange matched_part(const Face& face, const RigGeometry& rig, const Dispar
 /// Depths along the optical axis of the left camera, of the pixels of a face.
 struct FaceDepth
 {
-    int pixels = 0;         ///< of the face
-    int valued = 0;         ///< of these, with a disparity
-    double measured_mm = 0; ///< median; of a slanted target, where its middle is by the median of the errors
-    double error_mm = 0;    ///< median of measured minus true
-    double spread_mm = 0;   ///< half of the pixels lie within this of the median
-    double point_mm = 0;    ///< 95 of 100 pixels are off by this at most
+    int pixels = 0;          ///< of the face
+    int valued = 0;          ///< of these, with a disparity
+    double measured_mm = 0;  ///< median; of a slanted target, where its middle is by the median of the errors
+    double error_mm = 0;     ///< median of measured minus true
+    double spread_mm = 0;    ///< half of the pixels lie within this of the median
+    double point_mm = 0;     ///< 95 of 100 pixels are off by this at most
+    double disparity_px = 0; ///< true one, median
     double valued_share() const { return pixels == 0 ? 0 : static_cast<double>(valued) / pixels; }
 };
 
