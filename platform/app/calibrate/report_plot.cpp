@@ -10,6 +10,7 @@ namespace dicot::app::svg {
 namespace {
 
 constexpr double kLeft = 74, kRight = 24, kTop = 16, kFoot = 34;
+constexpr double kAbove = 9; // words over a curve
 
 /// -0.5 of a step and the like are no 0.
 std::string scale_mark(double value, double step)
@@ -97,7 +98,7 @@ void Plot::reach(double x, double low, double high, const char* kind)
 
 void Plot::note(double x, double y, const char* kind, const std::string& text)
 {
-    inner_ += words(x_of(x), y_of(y), kind, escaped(text));
+    inner_ += words(x_of(x), y_of(y) - kAbove, kind, escaped(text));
 }
 
 std::string Plot::drawn() const

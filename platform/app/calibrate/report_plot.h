@@ -37,7 +37,7 @@ public:
     void dots(std::span<const PlotPoint> points, const char* kind);
     /// An upright stroke.
     void reach(double x, double low, double high, const char* kind);
-    /// Words beside a place of the scales; `kind` "label", "label end" or "label middle".
+    /// Words just above a place of the scales; `kind` "label", "label end" or "label middle".
     void note(double x, double y, const char* kind, const std::string& text);
 
     std::string drawn() const;
