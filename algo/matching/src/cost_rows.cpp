@@ -17,22 +17,6 @@ std::size_t size_of(int a, int b, int c)
 
 } // namespace
 
-GroupRows rows_of_group(const Scene& scene, int y, int group)
-{
-    const int columns = 2 * scene.radius + 1;
-    const int slots = columns + 1;
-    const int top = y - scene.radius;
-    const auto window_row = [&](int slot) { return ((slot - top) % slots + slots) % slots; };
-    GroupRows rows{};
-    rows.low_window = window_row(2 * group);
-    rows.high_window = window_row(2 * group + 1);
-    rows.low = top + rows.low_window;
-    rows.high = top + rows.high_window;
-    rows.low_in = rows.low_window < columns && rows.low >= 0 && rows.low < scene.height;
-    rows.high_in = rows.high_window < columns && rows.high >= 0 && rows.high < scene.height;
-    return rows;
-}
-
 Candidates candidates_of(const Scene& scene, int x)
 {
     // Relative disparities whose partner is a column 0 .. width - 1 of the picture, which is shifted in the search
@@ -41,6 +25,14 @@ Candidates candidates_of(const Scene& scene, int x)
     const int farthest = std::min(scene.disparities - 1, x - scene.min_disparity);
     return {scene.axis - 1 - farthest, scene.axis - 1 - nearest};
 }
+
+/// The two picture rows of a group when row y is matched, and where they lie in the window.
+struct CostRows::GroupRows
+{
+    int low, high;               ///< picture rows
+    int low_window, high_window; ///< window rows 0 .. 2 radius
+    bool low_in, high_in;        ///< inside the window and inside the picture
+};
 
 void CostRows::lay_out(Arena& arena, const Scene& scene)
 {
@@ -70,6 +62,21 @@ void CostRows::raw_costs(const Scene& scene, int y)
     const int back = scene.axis - 1;
     right = {right.red - back, right.green - back, right.blue - back, right.census - back};
     scene.kernels->match_cost(half, scene.width, scene.axis, scene.left.cost(y), right, scene.costs);
+}
+
+CostRows::GroupRows CostRows::rows_of_group(const Scene& scene, int y, int group) const
+{
+    const int slots = 2 * groups_;
+    const int top = y - scene.radius;
+    const auto window_row = [&](int slot) { return ((slot - top) % slots + slots) % slots; };
+    GroupRows rows{};
+    rows.low_window = window_row(2 * group);
+    rows.high_window = window_row(2 * group + 1);
+    rows.low = top + rows.low_window;
+    rows.high = top + rows.high_window;
+    rows.low_in = rows.low_window < columns_ && rows.low >= 0 && rows.low < scene.height;
+    rows.high_in = rows.high_window < columns_ && rows.high >= 0 && rows.high < scene.height;
+    return rows;
 }
 
 namespace {

@@ -32,16 +32,6 @@ struct Scene
 /// The aggregated costs of one row: [width][axis], index r = axis - 1 - d; kNoCandidate where there is no partner.
 using AggregatedRow = std::span<std::uint16_t>;
 
-/// The two picture rows of a group when the window of row y is asked for, and where they lie in it.
-struct GroupRows
-{
-    int low, high;               ///< picture rows
-    int low_window, high_window; ///< window rows 0 .. 2 radius
-    bool low_in, high_in;        ///< inside the window and inside the picture
-};
-/// Picture row y has slot y mod 2 (radius + 1) of the window's ring; a group is two slots.
-GroupRows rows_of_group(const Scene& scene, int y, int group);
-
 /// The indices r of pixel x of which the partner lies in the right picture; empty when last < first.
 struct Candidates
 {
@@ -67,7 +57,9 @@ public:
     AggregatedRow row(const Scene& scene, int y, MatchTimes& times, std::uint64_t (*now_ns)());
 
 private:
+    struct GroupRows;
     void raw_costs(const Scene& scene, int y);
+    GroupRows rows_of_group(const Scene& scene, int y, int group) const;
     void left_weights(const Scene& scene, int y, int x0, int count);
     void right_weights(const Scene& scene, int y, int first, int count, int at);
     void aggregate(const Scene& scene, int y, int x0, int count);
