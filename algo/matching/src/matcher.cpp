@@ -82,6 +82,7 @@ Scene scene_of(int width, int height, const MatchOptions& options, const Kernels
     scene.disparities = options.disparities;
     scene.axis = (options.disparities + kLanes - 1) / kLanes * kLanes;
     scene.min_disparity = options.min_disparity;
+    scene.near_window = options.method == MatchMethod::kBest && scene.radius >= NearWindow::kRadius;
     return scene;
 }
 
