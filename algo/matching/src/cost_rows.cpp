@@ -6,6 +6,7 @@
 namespace dicot::matching {
 namespace {
 
+constexpr int kStrip = NearWindow::kStrip;
 /// Parts of 256 that the wide window's cost has beside the narrow one's.
 constexpr int kFarShare = 180;
 

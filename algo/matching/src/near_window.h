@@ -25,6 +25,9 @@ class NearWindow
 {
 public:
     static constexpr int kRadius = 3; ///< px
+    /// Pixels whose support weights are held at a time: long enough to spread the cost of moving the right table on,
+    /// short enough for a group's tables and costs to stay in a 48 KiB first-level cache.
+    static constexpr int kStrip = 32;
 
     /// Fills its spatial weights unless `arena` only counts.
     void lay_out(Arena& arena, const Scene& scene);
@@ -40,9 +43,5 @@ private:
     std::span<PairU16> left_;                               ///< [window][strip]
     std::span<PairU16> right_;                              ///< [groups][window][right_stride]
 };
-
-/// Pixels of a strip: long enough to spread the cost of moving the right table on, short enough for a group's tables
-/// and costs to stay in a 48 KiB first-level cache.
-inline constexpr int kStrip = 32;
 
 } // namespace dicot::matching
