@@ -7,10 +7,6 @@
 namespace dicot::matching {
 namespace {
 
-/// Half the steps of the paths along the row: disparities of ground and leaves change faster down the columns.
-constexpr PathPenalty kDownwards = {kWithinSurface.small / 2, kWithinSurface.large / 2};
-constexpr PathPenalty kDownwardsAcross = {kAcrossEdge.small / 2, kAcrossEdge.large / 2};
-
 std::size_t size_of(int a, int b)
 {
     return static_cast<std::size_t>(a) * static_cast<std::size_t>(b);
@@ -25,7 +21,7 @@ void ColumnPaths::lay_out(Arena& arena, const Scene& scene, int workers)
     paths_ = arena.take<std::uint16_t>(row * kChunk);
     behind_ = arena.take<std::uint16_t>(row);
     least_ = arena.take<std::uint16_t>(static_cast<std::size_t>(scene.width));
-    scratch_ = arena.take<std::uint16_t>(3 * size_of(workers, scene.axis));
+    scratch_ = arena.take<std::uint16_t>(4 * size_of(workers, scene.axis));
 }
 
 std::span<std::uint16_t> ColumnPaths::costs(const Scene& scene, int y)
@@ -45,17 +41,17 @@ void ColumnPaths::walk(const Scene& scene, int chunk, int worker, int workers)
     const int end = std::min(top + kChunk, scene.height);
     const int first = scene.axis - scene.disparities;
     const auto axis = static_cast<std::size_t>(scene.axis);
-    std::uint16_t* const start = scratch_.data() + 3 * size_of(worker, scene.axis);
+    std::uint16_t* const start = scratch_.data() + 4 * size_of(worker, scene.axis);
     begin_path({start, axis}, first);
-
+    const TwoSidedStep two_sided{scene, kBestColumnSteps, start + 3 * axis};
     for (int x = scene.width * worker / workers; x < scene.width * (worker + 1) / workers; ++x) {
         const std::size_t column = size_of(x, scene.axis);
         const auto path_of = [&](int y) { return &paths_[size_of(y - top, scene.width) * axis + column]; };
         // The step to row y from row y - way. A first step from outside the picture pays for nothing.
         const auto step = [&](int y, int way, const std::uint16_t* behind, std::uint16_t least, std::uint16_t* ahead) {
-            const bool edge = colour_edge(scene.left.lab(y), x, scene.left.lab(y - way), x);
-            return scene.kernels->path_step(ahead, costs(scene, y).data() + column, behind, least,
-                                            edge ? kDownwardsAcross : kDownwards, first, scene.axis);
+            const bool edge = colour_edge(scene.left.lab(y), x, scene.left.lab(y - way), x, kBestEdge);
+            return two_sided(ahead, costs(scene, y).data() + column, behind, least, edge, scene.right_edges.row(y) + x,
+                             way > 0 ? RightEdges::kAbove : RightEdges::kBelow);
         };
         std::uint16_t* ahead = start + axis;
         std::uint16_t* spare = ahead + axis;
@@ -85,7 +81,7 @@ void ColumnPaths::join(const Scene& scene, int y)
     const std::span<std::uint16_t> row = costs(scene, y);
     const std::uint16_t* const paths = &paths_[static_cast<std::size_t>(y % kChunk) * row.size()];
     for (std::size_t i = 0; i < row.size(); ++i)
-        row[i] = row[i] == kNoCandidate ? kNoCandidate : mean_of(row[i], paths[i]);
+        row[i] = row[i] == kNoCandidate ? kNoCandidate : paths[i];
 }
 
 } // namespace dicot::matching

@@ -18,13 +18,14 @@ public:
 
     void lay_out(Arena& arena, const Scene& scene, int workers);
 
-    /// Where the costs of row y belong, [width][axis]. All rows up to `end_of_costs` must be there before `walk`.
+    /// Where the costs of row y, smoothed along the row, belong, [width][axis]. All rows up to `end_of_costs` must be
+    /// there before `walk`.
     std::span<std::uint16_t> costs(const Scene& scene, int y);
     int end_of_costs(const Scene& scene, int chunk) const;
 
     /// Walks the columns of worker `worker` of `workers`; chunks from top to bottom.
     void walk(const Scene& scene, int chunk, int worker, int workers);
-    /// Replaces the costs of row y of the chunk, which hold the mean of the paths along the row, by the mean of all.
+    /// Replaces the costs of row y of the chunk by the mean of both paths; kNoCandidate stays.
     void join(const Scene& scene, int y);
 
 private:
@@ -32,7 +33,7 @@ private:
     std::span<std::uint16_t> paths_;   ///< [kChunk][width][axis]: the mean of both directions
     std::span<std::uint16_t> behind_;  ///< [width][axis]: the path downwards where the last chunk ended
     std::span<std::uint16_t> least_;   ///< [width]
-    std::span<std::uint16_t> scratch_; ///< [workers][3][axis]
+    std::span<std::uint16_t> scratch_; ///< [workers][4][axis]
 };
 
 } // namespace dicot::matching

@@ -4,6 +4,7 @@
 #include "dicot/base/arena.h"
 #include "dicot/kernels/kernels.h"
 #include "dicot/matching/matcher.h"
+#include "edges.h"
 #include "near_window.h"
 #include "planes.h"
 #include "tables.h"
@@ -18,6 +19,7 @@ struct Scene
     const Kernels* kernels;
     Planes left;
     Planes right;
+    RightEdges right_edges; ///< of kBest alone, else empty
     ColourWeights colour;
     std::span<std::uint16_t> left_spatial;  ///< [window][window], Q15
     std::span<std::uint16_t> right_spatial; ///< [window][window], Q14

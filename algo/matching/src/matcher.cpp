@@ -71,6 +71,7 @@ void lay_out(Bench& bench, Arena& arena, const MatchOptions& options, int worker
         bench.maps.scratch = take_map<DispQ8>(arena, scene.width, scene.height);
     if (options.method == MatchMethod::kBest) {
         bench.columns = arena.take<std::uint8_t>(static_cast<std::size_t>(scene.width));
+        scene.right_edges.lay_out(arena, scene.width, scene.height, scene.axis - 1);
         bench.paths.lay_out(arena, scene, workers);
     }
     for (int i = 0; i < workers; ++i) {
@@ -141,7 +142,7 @@ void match_bands(RowWork& work, int worker)
                                             : station.costs.row(scene, y, station.times, work.hooks.now_ns);
             const std::uint64_t since = work.clock();
             if (work.options.method != MatchMethod::kPaper)
-                station.scanline.smooth(scene, y, costs);
+                station.scanline.smooth(scene, y, costs, false);
             work.select(y, station, costs);
             station.times.select += work.clock() - since;
         }
@@ -162,6 +163,9 @@ void match_chunks(RowWork& work, Crew& crew)
             Station& station = work.station(worker);
             for (int y = made + worker; y < end; y += work.workers) {
                 const AggregatedRow costs = station.costs.row(scene, y, station.times, work.hooks.now_ns);
+                const std::uint64_t since = work.clock();
+                station.scanline.smooth(scene, y, costs, true);
+                station.times.select += work.clock() - since;
                 std::ranges::copy(costs, paths.costs(scene, y).begin());
             }
         });
@@ -178,7 +182,6 @@ void match_chunks(RowWork& work, Crew& crew)
             Station& station = work.station(worker);
             const int top = chunk * ColumnPaths::kChunk;
             for (int y = top + worker; y < std::min(top + ColumnPaths::kChunk, scene.height); y += work.workers) {
-                station.scanline.smooth(scene, y, paths.costs(scene, y));
                 paths.join(scene, y);
                 work.select(y, station, paths.costs(scene, y));
             }
@@ -284,6 +287,11 @@ MatchOutcome Matcher::match(ImageView<const Rgb8> left, ImageView<const Rgb8> ri
         scene.left.fill_rows(left, 0, bench.lab, from, to);
         scene.right.fill_rows(right, scene.min_disparity, bench.lab, from, to);
     });
+    if (options_.method == MatchMethod::kBest)
+        crew.run(workers, [&](int worker) {
+            scene.right_edges.fill_rows(scene.right, scene.height * worker / workers,
+                                        scene.height * (worker + 1) / workers);
+        });
     const std::uint64_t prepared = clock();
 
     for (Station& station : bench.stations)

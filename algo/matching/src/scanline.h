@@ -13,12 +13,13 @@ class ScanlinePass
 public:
     void lay_out(Arena& arena, const Scene& scene);
 
-    /// Replaces the costs of row y by the mean of both directions; kNoCandidate stays.
-    void smooth(const Scene& scene, int y, std::span<std::uint16_t> costs);
+    /// Replaces the costs of row y by the mean of both directions; kNoCandidate stays. `two_sided`
+    /// counts the right picture's edges too, with the steps of kBest.
+    void smooth(const Scene& scene, int y, std::span<std::uint16_t> costs, bool two_sided);
 
 private:
     std::span<std::uint16_t> forward_; ///< [width][axis]
-    std::span<std::uint16_t> state_;   ///< [3][axis]: where paths begin, the path behind, and the one being made
+    std::span<std::uint16_t> state_;   ///< [4][axis]: where paths begin, the path behind, the one being made, scratch
 };
 
 } // namespace dicot::matching

@@ -10,7 +10,7 @@ namespace {
 /// Columns of the right picture whose matches are not believed.
 constexpr int kRim = 3;
 
-constexpr int kLeastIsland = 30;  // px
+constexpr int kLeastIsland = 40;  // px
 constexpr int kSameSurface = 256; // 1/256 px
 
 struct Position
