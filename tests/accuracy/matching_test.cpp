@@ -83,7 +83,7 @@ TEST(Aloe, AllButThePapersStayBelowTheSemiGlobalMatchersOnAPlant)
     constexpr double kSemiGlobal = 4.2; // OpenCV's SGBM in its full mode: 4.23
     EXPECT_LE(rates_of(MatchMethod::kFast, "fast").nonocc, kSemiGlobal);
     EXPECT_LE(rates_of(MatchMethod::kStandard, "standard").nonocc, kSemiGlobal);
-    EXPECT_LE(rates_of(MatchMethod::kBest, "best").nonocc, kSemiGlobal);
+    EXPECT_LE(rates_of(MatchMethod::kBest, "best").nonocc, 2.7);
 }
 
 // Processor time of one thread, each method's best of some runs: other programs on the machine hardly count.
