@@ -43,13 +43,13 @@ double median_of(std::vector<float>& values)
 
 } // namespace
 
-TrueDepth read_truth(const std::string& folder)
+TrueDepth read_truth(const std::string& folder, const std::string& seen_name)
 {
     constexpr double kStepsInMm = 10;
     constexpr float kBoth = 255, kLeftOnly = 128;
     GreyMap depth = read_grey(folder + "/gt_depth.png", kStepsInMm);
     const GreyMap kind = read_grey(folder + "/gt_class.png", 1);
-    const GreyMap seen = read_grey(folder + "/gt_visible_right.png", 1);
+    const GreyMap seen = read_grey(folder + "/" + seen_name, 1);
     TrueDepth truth{depth.size.width, depth.size.height, std::move(depth.values), {}, {}, {}, {}};
     for (std::size_t i = 0; i < truth.pixels(); ++i) {
         const float k = kind.values[i];

@@ -34,8 +34,9 @@ struct TrueDepth
     std::size_t pixels() const { return mm.size(); }
 };
 
-/// From a folder of rig-dev/plants. Stops the program with the reason where it cannot be read.
-TrueDepth read_truth(const std::string& folder);
+/// From a folder of rig-dev/plants, or of another one where `seen` tells what the right camera sees. Stops the program
+/// with the reason where it cannot be read.
+TrueDepth read_truth(const std::string& folder, const std::string& seen = "gt_visible_right.png");
 
 /// What somebody measured, on the same pixels.
 struct RawDepth
