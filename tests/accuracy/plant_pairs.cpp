@@ -8,6 +8,7 @@
 
 #include <cstdio>
 #include <future>
+#include <mutex>
 #include <optional>
 
 namespace dicot::test {
@@ -34,11 +35,11 @@ PlantPair look_at(std::size_t plant, std::size_t light)
     pair.ours = own.on_raw_pixels(disparities_of(matched.map()));
     pair.peer = peer.get();
 
-    static const bool head_printed = [] {
+    static std::once_flag begun;
+    std::call_once(begun, [] {
+        std::printf("pictures: %s\n", DICOT_PICTURES_DIR);
         print_head();
-        return true;
-    }();
-    (void)head_printed;
+    });
     print_row(pair.name.c_str(), "ours", leaf_figures(plant, pair.ours));
     print_row("", "SGBM", leaf_figures(plant, pair.peer));
     const std::string drawn = std::string(kPlants[plant]) + "_" + kLights[light];

@@ -11,9 +11,6 @@
 
 namespace dicot::matching {
 
-/// Marks a disparity whose partner lies outside the right picture.
-inline constexpr std::uint16_t kNoCandidate = 0xFFFF;
-
 /// What all workers share while they match one pair.
 struct Scene
 {
