@@ -91,7 +91,6 @@ bool Face::contains(int x, int y) const
 PictureRange matched_part(const Face& face, const RigGeometry& rig, const DisparityRange& search)
 {
     const PictureRange& in = face.bounds();
-    const int most = search.min_disparity + search.disparities - 1;
     PictureRange part;
     // On the left also all that the right picture may show of the face.
     part.first = std::max({0, search.min_disparity, in.first - kAroundPx - search.disparities});
@@ -99,7 +98,8 @@ PictureRange matched_part(const Face& face, const RigGeometry& rig, const Dispar
     part.top = std::max(0, in.top - kAroundPx);
     part.bottom = std::min(rig.height, in.bottom + kAroundPx);
     // The matcher wants a picture as wide as the range at least.
-    part.end = std::max(part.end, std::min(part.first + search.disparities, rig.width + std::min(0, most)));
+    part.end =
+        std::max(part.end, std::min(part.first + search.disparities, rig.width + std::min(0, search.min_disparity)));
     return part;
 }
 
