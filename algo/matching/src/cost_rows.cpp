@@ -17,6 +17,15 @@ std::size_t size_of(int a, int b, int c)
 
 } // namespace
 
+Candidates candidates_of(const Scene& scene, int x)
+{
+    // Relative disparities whose partner is a column 0 .. width - 1 of the picture, which is shifted in the search
+    // frame.
+    const int nearest = std::max(0, x - (scene.width - 1 + scene.min_disparity));
+    const int farthest = std::min(scene.disparities - 1, x - scene.min_disparity);
+    return {scene.axis - 1 - farthest, scene.axis - 1 - nearest};
+}
+
 /// The two picture rows of a group when row y is matched, and where they lie in the window.
 struct CostRows::GroupRows
 {
@@ -79,11 +88,6 @@ PairU16 spatial_pair(std::span<const std::uint16_t> spatial, int columns, int lo
         return in ? spatial[size_of(1, row, columns) + static_cast<std::size_t>(column)] : std::uint16_t{0};
     };
     return {weight(low_row, low_in), weight(high_row, high_in)};
-}
-
-LabRow moved(LabRow row, int columns)
-{
-    return {row.la + columns, row.b + columns};
 }
 
 } // namespace
@@ -153,16 +157,13 @@ void CostRows::divide(const Scene& scene, int x0, int count)
 {
     for (int i = 0; i < count; ++i) {
         const int x = x0 + i;
-        // Relative disparities whose partner x - d lies in the right picture (columns of the search frame).
-        const int nearest = std::max(0, x - (scene.width - 1 + scene.min_disparity));
-        const int farthest = std::min(scene.disparities - 1, x - scene.min_disparity);
+        const auto [first, last] = candidates_of(scene, x);
         const auto to = row_.begin() + x * scene.axis;
         std::fill(to, to + scene.axis, kNoCandidate);
-        if (farthest < nearest)
+        if (last < first)
             continue;
-        const int r = scene.axis - 1 - farthest;
-        const std::size_t at = static_cast<std::size_t>(i * scene.axis + r);
-        scene.kernels->normalise(&to[r], numerator_.data() + at, denominator_.data() + at, farthest - nearest + 1);
+        const std::size_t at = static_cast<std::size_t>(i * scene.axis + first);
+        scene.kernels->normalise(&to[first], numerator_.data() + at, denominator_.data() + at, last - first + 1);
     }
 }
 

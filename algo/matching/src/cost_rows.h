@@ -32,6 +32,18 @@ struct Scene
 /// The aggregated costs of one row: [width][axis], index r = axis - 1 - d; kNoCandidate where there is no partner.
 using AggregatedRow = std::span<std::uint16_t>;
 
+/// The indices r of pixel x of which the partner lies in the right picture; empty when last < first.
+struct Candidates
+{
+    int first, last;
+};
+Candidates candidates_of(const Scene& scene, int x);
+
+inline LabRow moved(LabRow row, int columns)
+{
+    return {row.la + columns, row.b + columns};
+}
+
 /// One worker's tables: a ring of raw costs as high as the window, and the support weights of a strip of pixels.
 class CostRows
 {

@@ -1,6 +1,7 @@
 #include "dicot/matching/matcher.h"
 
 #include "cost_rows.h"
+#include "fast_rows.h"
 #include "lab.h"
 #include "planes.h"
 #include "refine.h"
@@ -21,6 +22,7 @@ namespace matching {
 struct Station
 {
     CostRows costs;
+    FastRows fast;
     ScanlinePass scanline;
     Selector selector;
     MatchTimes times;
@@ -65,7 +67,10 @@ void lay_out(Bench& bench, Arena& arena, const MatchOptions& options, int worker
     for (int i = 0; i < workers; ++i) {
         Station measured;
         Station& station = arena.measuring() ? measured : bench.stations[static_cast<std::size_t>(i)];
-        station.costs.lay_out(arena, scene);
+        if (options.method == MatchMethod::kFast)
+            station.fast.lay_out(arena, scene);
+        else
+            station.costs.lay_out(arena, scene);
         if (options.method != MatchMethod::kPaper)
             station.scanline.lay_out(arena, scene);
         station.selector.lay_out(arena, scene);
@@ -150,7 +155,7 @@ Result<Matcher> Matcher::make(int width, int height, const MatchOptions& options
     fill(bench->lab);
     bench->scene.colour.fill(options.gamma_color);
     fill_spatial_weights(bench->scene.left_spatial.data(), bench->scene.right_spatial.data(), bench->scene.radius,
-                         options.gamma_space);
+                         options.method == MatchMethod::kFast ? kLineReach * options.gamma_space : options.gamma_space);
     fill_costs(bench->scene.costs, options.cost);
     matcher.bench_ = bench;
     return matcher;
@@ -160,7 +165,8 @@ std::uint64_t Matcher::terms() const
 {
     const matching::Scene& scene = bench_->scene;
     const auto window = static_cast<std::uint64_t>(2 * scene.radius + 1);
-    return window * window * static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height) *
+    const auto cells = options_.method == MatchMethod::kFast ? 2 * window : window * window;
+    return cells * static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height) *
            static_cast<std::uint64_t>(scene.disparities);
 }
 
@@ -190,8 +196,11 @@ MatchOutcome Matcher::match(ImageView<const Rgb8> left, ImageView<const Rgb8> ri
         station.times = {};
         for (int top = worker * band_rows; top < scene.height; top += workers * band_rows) {
             station.costs.restart();
+            station.fast.restart();
             for (int y = top; y < std::min(top + band_rows, scene.height); ++y) {
-                const AggregatedRow costs = station.costs.row(scene, y, station.times, hooks.now_ns);
+                const AggregatedRow costs = options_.method == MatchMethod::kFast
+                                                ? station.fast.row(scene, y, station.times, hooks.now_ns)
+                                                : station.costs.row(scene, y, station.times, hooks.now_ns);
                 const std::uint64_t since = clock();
                 if (check_both_ways)
                     station.scanline.smooth(scene, y, costs);
