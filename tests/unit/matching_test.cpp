@@ -172,7 +172,8 @@ class SameBytes : public ::testing::TestWithParam<Variant>
 TEST_P(SameBytes, ForAnyThreadsBandsAndKernels)
 {
     const Variant variant = GetParam();
-    for (const MatchMethod method : {MatchMethod::kPaper, MatchMethod::kFast, MatchMethod::kStandard}) {
+    for (const MatchMethod method :
+         {MatchMethod::kPaper, MatchMethod::kFast, MatchMethod::kStandard, MatchMethod::kBest}) {
         for (const bool dense : {false, true}) {
             // Odd sizes: strips, groups and vectors all end in the middle.
             const Pair pair = scene(107, 43, 4, 13, 23);

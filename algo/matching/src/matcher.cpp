@@ -7,7 +7,9 @@
 #include "refine.h"
 #include "scanline.h"
 #include "select.h"
+#include "speckles.h"
 #include "tables.h"
+#include "votes.h"
 
 #include <algorithm>
 #include <atomic>
@@ -32,6 +34,7 @@ struct Bench
     Scene scene;
     LabTables lab;
     Maps maps;
+    std::span<std::uint8_t> columns; ///< scratch of kBest, one entry a column
     std::span<Station> stations;
 };
 
@@ -59,6 +62,8 @@ void lay_out(Bench& bench, Arena& arena, const MatchOptions& options, int worker
     bench.maps.verdict = take_map<Verdict>(arena, scene.width, scene.height);
     if (options.dense && options.method != MatchMethod::kPaper)
         bench.maps.scratch = take_map<DispQ8>(arena, scene.width, scene.height);
+    if (options.method == MatchMethod::kBest)
+        bench.columns = arena.take<std::uint8_t>(static_cast<std::size_t>(scene.width));
     for (int i = 0; i < workers; ++i) {
         Station measured;
         Station& station = arena.measuring() ? measured : bench.stations[static_cast<std::size_t>(i)];
@@ -213,11 +218,18 @@ MatchOutcome Matcher::match(ImageView<const Rgb8> left, ImageView<const Rgb8> ri
     });
 
     const std::uint64_t matched = clock();
+    const bool best = options_.method == MatchMethod::kBest;
+    if (best)
+        drop_speckles(bench.maps, bench.columns);
+    if (options_.dense && best)
+        take_majorities(bench.maps, scene.disparities, scene.left, scene.colour, crew);
     if (options_.dense)
         fill_gaps(bench.maps);
     else
         drop_unmatched(bench.maps);
-    if (options_.dense && check_both_ways)
+    if (options_.dense && best)
+        smooth_by_votes(bench.maps, scene.disparities, scene.left, scene.colour, crew);
+    else if (options_.dense && check_both_ways)
         smooth(bench.maps, scene.left, scene.colour, crew);
 
     MatchOutcome outcome{};

@@ -1,5 +1,6 @@
 #include "refine.h"
 
+#include "median.h"
 #include "tables.h"
 
 #include <algorithm>
@@ -17,14 +18,14 @@ void fill_row(std::span<DispQ8> disparity, std::span<Verdict> verdict)
     // Two sweeps: the nearest matched value from the left, then the smaller of it and the nearest one from the right.
     DispQ8 nearest = kDispMissing;
     for (std::size_t x = 0; x < width; ++x) {
-        if (verdict[x] == Verdict::kMatched)
+        if (verdict[x] >= Verdict::kVoted)
             nearest = disparity[x];
         else
             disparity[x] = nearest;
     }
     nearest = kDispMissing;
     for (std::size_t x = width; x-- > 0;) {
-        if (verdict[x] == Verdict::kMatched) {
+        if (verdict[x] >= Verdict::kVoted) {
             nearest = disparity[x];
             continue;
         }
@@ -51,22 +52,6 @@ void fill_empty_rows(ImageView<DispQ8> map)
     for (int y = first + 1; y < map.height; ++y)
         if (map.row(y)[0] == kDispMissing)
             copy_from(y - 1, y);
-}
-
-template <unsigned kRadiusU>
-void median_row(ImageView<const DispQ8> from, int y, DispQ8* to)
-{
-    constexpr int kRadius = kRadiusU;
-    std::array<DispQ8, (2 * kRadiusU + 1) * (2 * kRadiusU + 1)> values{};
-    for (int x = 0; x < from.width; ++x) {
-        std::size_t count = 0;
-        for (int ny = std::max(y - kRadius, 0); ny <= std::min(y + kRadius, from.height - 1); ++ny)
-            for (int nx = std::max(x - kRadius, 0); nx <= std::min(x + kRadius, from.width - 1); ++nx)
-                values[count++] = from.row(ny)[nx];
-        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(count / 2);
-        std::nth_element(values.begin(), middle, values.begin() + static_cast<std::ptrdiff_t>(count));
-        to[x] = *middle;
-    }
 }
 
 /// The weighted median of the window of (x, y), to whole pixels, and the weighted mean of the values that share them.

@@ -22,8 +22,8 @@ struct Maps
 /// Takes away what failed a check.
 void drop_unmatched(const Maps& maps);
 
-/// Gives every pixel a value: rows are filled from the smaller of the two nearest matched neighbours (the farther
-/// surface, which is the one that is hidden). A filled pixel has confidence 0.
+/// Gives every pixel a value: rows are filled from the smaller of the two nearest neighbours that were matched or voted
+/// for (the farther surface, which is the one that is hidden). A filled pixel has confidence 0.
 void fill_gaps(const Maps& maps);
 
 /// Medians after filling: 5 x 5 for what was matched, colour-weighted for what was filled.

@@ -13,6 +13,7 @@ enum class Verdict : std::uint8_t
 {
     kUnseen,     ///< no partner inside the right picture, or nothing matched on one side of it in its row
     kMismatched, ///< the right picture's winner disagrees, or a rival is as good
+    kVoted,      ///< most of its neighbours have this disparity
     kMatched
 };
 
