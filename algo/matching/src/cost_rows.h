@@ -4,6 +4,7 @@
 #include "dicot/base/arena.h"
 #include "dicot/kernels/kernels.h"
 #include "dicot/matching/matcher.h"
+#include "near_window.h"
 #include "planes.h"
 #include "tables.h"
 
@@ -27,6 +28,7 @@ struct Scene
     int disparities; ///< as asked for
     int axis;        ///< disparities, padded to whole vectors
     int min_disparity;
+    bool near_window; ///< mix the costs of a narrow window in; needs a radius of 3 at least
 };
 
 /// The aggregated costs of one row: [width][axis], index r = axis - 1 - d; kNoCandidate where there is no partner.
@@ -64,6 +66,7 @@ private:
     void right_weights(const Scene& scene, int y, int first, int count, int at);
     void aggregate(const Scene& scene, int y, int x0, int count);
     void divide(const Scene& scene, int x0, int count);
+    void mix_near(const Scene& scene, int y, int x0, int count);
 
     int groups_ = 0;
     int columns_ = 0;
@@ -75,6 +78,8 @@ private:
     std::span<PairU16> right_;                         ///< [groups][columns][right_stride]
     std::span<std::uint32_t> numerator_, denominator_; ///< [kStrip][axis]
     std::span<std::uint16_t> row_;                     ///< [width][axis]
+    std::span<std::uint16_t> near_row_;                ///< [axis]
+    NearWindow near_;
 };
 
 } // namespace dicot::matching
