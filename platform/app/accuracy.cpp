@@ -29,7 +29,8 @@ constexpr const char* kAbout =
     "gave it; the inner 80 % of its width and height are measured;\n"
     "   normal_x normal_y normal_z centre_x_mm centre_y_mm centre_z_mm: its plane in the left camera's frame, when it "
     "is slanted.\n\n"
-    "Without corners, what is measured is --box, or else the middle twelfth of the picture: there the target must be. "
+    "Measured is --box where it is given, else the inside of the corners, else the middle twelfth of the picture: "
+    "there the target must be. "
     "Reported for each target: the median depth over it, its error, the bound of eq. 21 of the 2017 paper, "
     "Z^2 / (f B) x 0.5 px, within how many mm half and 95 % of its pixels lie, and the share that has a value.";
 

@@ -168,7 +168,9 @@ void draw(const std::vector<BaselineFigures>& all)
                "Mismatched and hidden leaf pixels over the baseline");
     const auto add = [](Plot& plot, const std::vector<PlotPoint>& points, const char* kind, const char* name) {
         plot.curve(points, kind);
-        plot.note(points.back().first - 1, points.back().second, "label end", name);
+        const bool falls = points.back().second < points.front().second;
+        const auto& [x, y] = falls ? points.front() : points.back(); // its highest place: no curve of its own above
+        plot.note(x, y, falls ? "label" : "label end", name);
     };
     add(depth, bound, "mark", "eq. 21, half a px");
     add(depth, rms, "trace right", "RMS without mismatches");

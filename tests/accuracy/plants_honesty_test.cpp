@@ -27,6 +27,11 @@ TEST(Sparsification, AreasOfAFewPixelsAreThoseWorkedOutByHand)
     EXPECT_DOUBLE_EQ(sparsified({{4, 1}, {0, 2}, {2, 3}}).ideal, 1);
 }
 
+bool is_leaf(const TrueDepth& truth, std::size_t i)
+{
+    return truth.leaf[i];
+}
+
 bool within_range(float mm)
 {
     return mm >= float{kWorkingRange.near_mm} && mm <= float{kWorkingRange.far_mm};
@@ -81,14 +86,13 @@ TEST(PlantHonesty, TheLeastCertainAreTheMostWrong)
 {
     if (!data_there("rig-dev/plants"))
         return;
-    const auto leaf = [](const TrueDepth& truth, std::size_t i) { return truth.leaf[i]; };
     const auto surface = [](const TrueDepth& truth, std::size_t i) {
         return truth.seen_by_both[i] && within_range(truth.mm[i]);
     };
     std::printf("sparsification, the twelve together, 0, 10 .. 90 %% removed\n");
-    print_sparsified("leaves, share off > 3 mm", judged(Measure::kOff, leaf));
-    print_sparsified("leaves, mean error, mm", judged(Measure::kSize, leaf));
-    const Sparsification capped = print_sparsified("leaves, mean error up to 10 mm", judged(Measure::kCapped, leaf));
+    print_sparsified("leaves, share off > 3 mm", judged(Measure::kOff, is_leaf));
+    print_sparsified("leaves, mean error, mm", judged(Measure::kSize, is_leaf));
+    const Sparsification capped = print_sparsified("leaves, mean error up to 10 mm", judged(Measure::kCapped, is_leaf));
     print_sparsified("all surfaces, share off > 3 mm", judged(Measure::kOff, surface));
     print_sparsified("all surfaces, mean error up to 10 mm", judged(Measure::kCapped, surface));
     EXPECT_LE(capped.ratio(), 1.5);
@@ -99,7 +103,7 @@ int confidence_of_leaves()
 {
     std::array<long, 256> counts{};
     long all = 0;
-    for (const Judged& pixel : judged(Measure::kOff, [](const TrueDepth&t, std::size_t i) { return t.leaf[i]; }))
+    for (const Judged& pixel : judged(Measure::kOff, is_leaf))
         if (pixel.wrong == 0) {
             ++counts[pixel.confidence];
             ++all;

@@ -54,7 +54,7 @@ TEST(PlantMeans, OwnCalibrationAloneCostsATenthOfAMillimetre)
         std::printf("perfect matches of %s: median error %.4f mm with the true calibration, %.3f mm with our own\n",
                     kPlants[plant], exact.median_mm, own.median_mm);
         EXPECT_LE(exact.median_mm, 0.001);
-        EXPECT_LE(own.median_mm, 0.15);
+        EXPECT_LE(own.median_mm, 0.1);
     }
 }
 

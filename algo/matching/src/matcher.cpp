@@ -2,6 +2,7 @@
 
 #include "bench.h"
 #include "row_work.h"
+#include "slants.h"
 #include "speckles.h"
 #include "tables.h"
 #include "votes.h"
@@ -13,6 +14,9 @@ namespace dicot {
 namespace matching {
 
 namespace {
+
+/// The voters' gamma, in those of the support weights.
+constexpr double kVotersGamma = 1.5;
 
 template <typename Pixel>
 ImageView<Pixel> take_map(Arena& arena, int width, int height)
@@ -131,6 +135,7 @@ Result<Matcher> Matcher::make(int width, int height, const MatchOptions& options
     lay_out(*bench, own, options, workers);
     fill(bench->lab);
     bench->scene.colour.fill(options.gamma_color);
+    bench->voters.fill(kVotersGamma * options.gamma_color);
     fill_spatial_weights(bench->scene.left_spatial.data(), bench->scene.right_spatial.data(), bench->scene.radius,
                          options.method == MatchMethod::kFast ? kLineReach * options.gamma_space : options.gamma_space);
     fill_costs(bench->scene.costs, options.cost);
@@ -170,18 +175,21 @@ MatchOutcome Matcher::match(ImageView<const Rgb8> left, ImageView<const Rgb8> ri
 
     const std::uint64_t matched = clock();
     const bool best = options_.method == MatchMethod::kBest;
-    if (best)
+    if (best) {
+        drop_clipped(bench.maps, scene.min_disparity);
         drop_speckles(bench.maps, bench.columns);
-    if (options_.dense && best)
-        take_majorities(bench.maps, scene.disparities, scene.left, scene.colour, crew);
-    if (options_.dense)
-        fill_gaps(bench.maps);
-    else
+    }
+    if (!options_.dense) {
         drop_unmatched(bench.maps);
-    if (options_.dense && best)
-        smooth_by_votes(bench.maps, scene.disparities, scene.left, scene.colour, crew);
-    else if (options_.dense && check_both_ways)
-        smooth(bench.maps, scene.left, scene.colour, crew);
+    } else if (best) {
+        take_majorities(bench.maps, scene.disparities, scene.left, bench.voters, crew);
+        fill_along_planes(bench.maps, scene.disparities, scene.left, bench.voters, crew);
+        smooth_evenly(bench.maps, crew);
+    } else {
+        fill_gaps(bench.maps);
+        if (check_both_ways)
+            smooth(bench.maps, scene.left, scene.colour, crew);
+    }
 
     MatchOutcome outcome{};
     outcome.map.relative = bench.maps.disparity;

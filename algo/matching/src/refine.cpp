@@ -18,14 +18,14 @@ void fill_row(std::span<DispQ8> disparity, std::span<Verdict> verdict)
     // Two sweeps: the nearest matched value from the left, then the smaller of it and the nearest one from the right.
     DispQ8 nearest = kDispMissing;
     for (std::size_t x = 0; x < width; ++x) {
-        if (verdict[x] >= Verdict::kVoted)
+        if (verdict[x] == Verdict::kMatched)
             nearest = disparity[x];
         else
             disparity[x] = nearest;
     }
     nearest = kDispMissing;
     for (std::size_t x = width; x-- > 0;) {
-        if (verdict[x] >= Verdict::kVoted) {
+        if (verdict[x] == Verdict::kMatched) {
             nearest = disparity[x];
             continue;
         }
@@ -33,25 +33,6 @@ void fill_row(std::span<DispQ8> disparity, std::span<Verdict> verdict)
             verdict[x] = Verdict::kUnseen;
         disparity[x] = std::min(disparity[x], nearest); // kDispMissing is the largest value
     }
-}
-
-/// Rows without any match copy the nearest row that has one; a map without any is all 0.
-void fill_empty_rows(ImageView<DispQ8> map)
-{
-    const auto copy_from = [&](int from, int to) { std::copy_n(map.row(from), map.width, map.row(to)); };
-    int first = 0;
-    while (first < map.height && map.row(first)[0] == kDispMissing)
-        ++first;
-    if (first == map.height) {
-        for (int y = 0; y < map.height; ++y)
-            std::fill_n(map.row(y), map.width, DispQ8{0});
-        return;
-    }
-    for (int y = first; y-- > 0;)
-        copy_from(first, y);
-    for (int y = first + 1; y < map.height; ++y)
-        if (map.row(y)[0] == kDispMissing)
-            copy_from(y - 1, y);
 }
 
 /// The weighted median of the window of (x, y), to whole pixels, and the weighted mean of the values that share them.
@@ -86,6 +67,24 @@ DispQ8 weighted_median(ImageView<const DispQ8> map, const Maps& maps, const Plan
 
 } // namespace
 
+void fill_empty_rows(ImageView<DispQ8> map)
+{
+    const auto copy_from = [&](int from, int to) { std::copy_n(map.row(from), map.width, map.row(to)); };
+    int first = 0;
+    while (first < map.height && map.row(first)[0] == kDispMissing)
+        ++first;
+    if (first == map.height) {
+        for (int y = 0; y < map.height; ++y)
+            std::fill_n(map.row(y), map.width, DispQ8{0});
+        return;
+    }
+    for (int y = first; y-- > 0;)
+        copy_from(first, y);
+    for (int y = first + 1; y < map.height; ++y)
+        if (map.row(y)[0] == kDispMissing)
+            copy_from(y - 1, y);
+}
+
 void drop_unmatched(const Maps& maps)
 {
     for (int y = 0; y < maps.disparity.height; ++y) {
@@ -108,6 +107,13 @@ void fill_gaps(const Maps& maps)
                 maps.confidence.row(y)[x] = 0;
     }
     fill_empty_rows(maps.disparity);
+}
+
+void smooth_evenly(const Maps& maps, Crew& crew)
+{
+    crew.run(maps.disparity.height, [&](int y) { median_row<1>(maps.disparity, y, maps.scratch.row(y)); });
+    crew.run(maps.disparity.height,
+             [&](int y) { std::copy_n(maps.scratch.row(y), maps.disparity.width, maps.disparity.row(y)); });
 }
 
 void smooth(const Maps& maps, const Planes& left, const ColourWeights& weights, Crew& crew)

@@ -7,6 +7,12 @@
 namespace dicot::matching {
 namespace {
 
+/// Columns of the right picture whose matches are not believed.
+constexpr int kRim = 3;
+
+constexpr int kLeastIsland = 30;  // px
+constexpr int kSameSurface = 256; // 1/256 px
+
 struct Position
 {
     int x, y;
@@ -47,6 +53,18 @@ Island island_of(const Maps& maps, Position start)
 }
 
 } // namespace
+
+void drop_clipped(const Maps& maps, int min_disparity)
+{
+    for (int y = 0; y < maps.disparity.height; ++y) {
+        for (int x = 0; x < maps.disparity.width; ++x) {
+            Verdict& verdict = maps.verdict.row(y)[x];
+            const int disparity = min_disparity + ((maps.disparity.row(y)[x] + 128) >> kDispFractionBits);
+            if (verdict == Verdict::kMatched && x - disparity < kRim)
+                verdict = Verdict::kMismatched;
+        }
+    }
+}
 
 void drop_speckles(const Maps& maps, std::span<std::uint8_t> large)
 {

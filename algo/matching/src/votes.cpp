@@ -1,6 +1,5 @@
 #include "votes.h"
 
-#include "median.h"
 #include "tables.h"
 
 #include <algorithm>
@@ -14,11 +13,16 @@ constexpr int kReach = 16;
 constexpr int kStride = 2;
 static_assert(kReach % kStride == 0);
 
-constexpr int kRounds = 3;
+constexpr int kRounds = 2;
 /// A majority holds at least so much of the votes, in tenths ...
 constexpr int kMajority = 6;
 /// ... and there are at least so many votes: seven neighbours of the very same colour.
 constexpr std::uint32_t kQuorum = 7 * kLeftWeightOne;
+
+bool certain(Verdict verdict)
+{
+    return verdict >= Verdict::kVoted;
+}
 
 /// The votes of one pixel's neighbours, by whole disparities.
 class Ballot
@@ -26,10 +30,8 @@ class Ballot
 public:
     explicit Ballot(int disparities) : bins_(static_cast<std::size_t>(disparities) + 1) {}
 
-    /// Asks the neighbours of (x, y) whose verdict's share, in halves of a vote, is not 0.
-    template <typename Share>
-    void ask(ImageView<const DispQ8> map, const Maps& maps, const Planes& left, const ColourWeights& weights, int x,
-             int y, Share halves)
+    /// Asks the neighbours of (x, y) that are certain of theirs.
+    void ask(const Maps& maps, const Planes& left, const ColourWeights& weights, int x, int y)
     {
         std::fill_n(votes_.begin(), bins_, 0u);
         std::fill_n(sums_.begin(), bins_, 0u);
@@ -37,16 +39,15 @@ public:
         const LabRow centre = left.lab(y);
         // The first neighbour inside the picture whose distance is a whole number of strides.
         const auto first = [](int at) { return at < kReach ? at % kStride : at - kReach; };
-        const int right_end = std::min(x + kReach, map.width - 1);
-        for (int ny = first(y); ny <= std::min(y + kReach, map.height - 1); ny += kStride) {
+        const int right_end = std::min(x + kReach, maps.disparity.width - 1);
+        for (int ny = first(y); ny <= std::min(y + kReach, maps.disparity.height - 1); ny += kStride) {
             const LabRow row = left.lab(ny);
             const Verdict* const verdicts = maps.verdict.row(ny);
-            const DispQ8* const values = map.row(ny);
+            const DispQ8* const values = maps.disparity.row(ny);
             for (int nx = first(x); nx <= right_end; nx += kStride) {
-                const std::uint32_t share = halves(verdicts[nx]);
-                if (share == 0)
+                if (!certain(verdicts[nx]))
                     continue;
-                const std::uint32_t weight = std::uint32_t{weights.between(centre, x, row, nx)} * share / 2;
+                const std::uint32_t weight = weights.between(centre, x, row, nx);
                 const DispQ8 value = values[nx];
                 const std::size_t bin = static_cast<std::size_t>(value + 128) >> kDispFractionBits;
                 votes_[bin] += weight;
@@ -67,18 +68,6 @@ public:
                    : kDispMissing;
     }
 
-    /// The mean of the values that share the median's whole disparity; `otherwise` when nobody voted.
-    DispQ8 median(DispQ8 otherwise) const
-    {
-        if (all_ == 0)
-            return otherwise;
-        std::uint64_t passed = votes_[0];
-        std::size_t bin = 0;
-        while (passed * 2 < all_)
-            passed += votes_[++bin];
-        return mean(bin);
-    }
-
 private:
     DispQ8 mean(std::size_t bin) const { return static_cast<DispQ8>((sums_[bin] + votes_[bin] / 2) / votes_[bin]); }
 
@@ -88,22 +77,33 @@ private:
     std::array<std::uint64_t, kMaxDisparities + 1> sums_{};
 };
 
+void vote_in_row(const Maps& maps, int disparities, const Planes& left, const ColourWeights& weights, int y)
+{
+    const Verdict* const verdicts = maps.verdict.row(y);
+    const Verdict* const end = verdicts + maps.disparity.width;
+    DispQ8* const elected = maps.scratch.row(y);
+    std::fill_n(elected, maps.disparity.width, kDispMissing);
+    const Verdict* const first = std::find_if(verdicts, end, certain);
+    if (first == end)
+        return;
+    Ballot ballot(disparities);
+    int last = maps.disparity.width - 1;
+    while (!certain(verdicts[last]))
+        --last;
+    for (int x = static_cast<int>(first - verdicts); x < last; ++x) {
+        if (certain(verdicts[x]))
+            continue;
+        ballot.ask(maps, left, weights, x, y);
+        elected[x] = ballot.majority();
+    }
+}
+
 } // namespace
 
 void take_majorities(const Maps& maps, int disparities, const Planes& left, const ColourWeights& weights, Crew& crew)
 {
-    const auto certain = [](Verdict verdict) { return verdict >= Verdict::kVoted ? 2u : 0u; };
     for (int round = 0; round < kRounds; ++round) {
-        crew.run(maps.disparity.height, [&](int y) {
-            Ballot ballot(disparities);
-            for (int x = 0; x < maps.disparity.width; ++x) {
-                maps.scratch.row(y)[x] = kDispMissing;
-                if (certain(maps.verdict.row(y)[x]))
-                    continue;
-                ballot.ask(maps.disparity, maps, left, weights, x, y, certain);
-                maps.scratch.row(y)[x] = ballot.majority();
-            }
-        });
+        crew.run(maps.disparity.height, [&](int y) { vote_in_row(maps, disparities, left, weights, y); });
         for (int y = 0; y < maps.disparity.height; ++y) {
             for (int x = 0; x < maps.disparity.width; ++x) {
                 const DispQ8 elected = maps.scratch.row(y)[x];
@@ -114,25 +114,6 @@ void take_majorities(const Maps& maps, int disparities, const Planes& left, cons
             }
         }
     }
-}
-
-void smooth_by_votes(const Maps& maps, int disparities, const Planes& left, const ColourWeights& weights, Crew& crew)
-{
-    const auto halves = [](Verdict verdict) {
-        return verdict >= Verdict::kVoted ? 2u : verdict == Verdict::kUnseen ? 0u : 1u;
-    };
-    crew.run(maps.disparity.height, [&](int y) { median_row<1>(maps.disparity, y, maps.scratch.row(y)); });
-    crew.run(maps.disparity.height, [&](int y) {
-        Ballot ballot(disparities);
-        for (int x = 0; x < maps.disparity.width; ++x) {
-            DispQ8& value = maps.disparity.row(y)[x];
-            value = maps.scratch.row(y)[x];
-            if (maps.verdict.row(y)[x] == Verdict::kMatched)
-                continue;
-            ballot.ask(maps.scratch, maps, left, weights, x, y, halves);
-            value = ballot.median(value);
-        }
-    });
 }
 
 } // namespace dicot::matching

@@ -9,7 +9,7 @@
 namespace dicot::app {
 namespace {
 
-constexpr int kAroundPx = 64; // more than the window's radius, and what neighbours say to each other
+constexpr int kAroundPx = 48; // more than the window's radius, and what neighbours say to each other
 
 double median(std::vector<double>& values)
 {
@@ -91,15 +91,15 @@ bool Face::contains(int x, int y) const
 PictureRange matched_part(const Face& face, const RigGeometry& rig, const DisparityRange& search)
 {
     const PictureRange& in = face.bounds();
-    const int most = search.min_disparity + search.disparities - 1;
     PictureRange part;
-    // Left of the face lie the partners of its partners, right of it what competes for them.
+    // On the left also all that the right picture may show of the face.
     part.first = std::max({0, search.min_disparity, in.first - kAroundPx - search.disparities});
-    part.end = std::min({rig.width, rig.width + search.min_disparity, in.end + kAroundPx + search.disparities});
+    part.end = std::min({rig.width, rig.width + search.min_disparity, in.end + kAroundPx});
     part.top = std::max(0, in.top - kAroundPx);
     part.bottom = std::min(rig.height, in.bottom + kAroundPx);
     // The matcher wants a picture as wide as the range at least.
-    part.end = std::max(part.end, std::min(part.first + search.disparities, rig.width + std::min(0, most)));
+    part.end =
+        std::max(part.end, std::min(part.first + search.disparities, rig.width + std::min(0, search.min_disparity)));
     return part;
 }
 

@@ -52,9 +52,9 @@ private:
     PictureRange bounds_;
 };
 
-/// What must be matched so that the face comes out as if the whole picture were: its partners, and room for what the
-/// matcher looks at around it. The right picture's part has the same size and begins `search.min_disparity` px
-/// to the left of it.
+/// What must be matched so that the face comes out as if the whole picture were: the partners of its pixels at every
+/// disparity, and room for what the matcher looks at around it. The right picture's part has the same size and begins
+/// `search.min_disparity` px further left.
 PictureRange matched_part(const Face& face, const RigGeometry& rig, const DisparityRange& search);
 
 /// Depths along the optical axis of the left camera, of the pixels of a face.
