@@ -17,6 +17,8 @@ constexpr int kSameSurface = kOnePx;
 constexpr int kSameSurfaceAtFirst = 3 * kOnePx / 2;
 /// A round moves a pixel by no more.
 constexpr int kLongestStep = kOnePx / 2;
+/// What would end farther from the winner, 1/256 px, followed another surface and stays where it was.
+constexpr int kFarthest = 128;
 /// Where the pictures differ by more, 40 grey levels, they do not show the same.
 constexpr int kSameBrightness = 40 << 4;
 constexpr std::int16_t kUnknown = INT16_MIN;
@@ -42,9 +44,9 @@ public:
             const LabRow high = scene.left.lab(row + 1 < kSide ? y + dy + stride : -1);
             for (int column = 0; column < kSide; ++column) {
                 const int dx = column * stride - reach;
-                scene.kernels->support_weights(weights_[static_cast<std::size_t>(row / 2 * kSide + column)].data(), count,
-                                               moved(scene.left.lab(y), x0), moved(low, x0 + dx), moved(high, x0 + dx),
-                                               scene.colour.table, kBoth);
+                scene.kernels->support_weights(weights_[static_cast<std::size_t>(row / 2 * kSide + column)].data(),
+                                               count, moved(scene.left.lab(y), x0), moved(low, x0 + dx),
+                                               moved(high, x0 + dx), scene.colour.table, kBoth);
             }
         }
     }
@@ -156,8 +158,8 @@ void SurfaceRefiner::look_up(const Scene& scene, Crew& crew)
             const int before = right[column + 1] - right[column - 1];
             const int after = right[column + 2] - right[column];
             difference_.row(y)[x] = static_cast<std::int16_t>(difference);
-            gradient_.row(y)[x] = static_cast<std::int16_t>(left[x + 1] - left[x - 1] + before +
-                                                            ((after - before) * t >> kSlopeBits));
+            gradient_.row(y)[x] =
+                static_cast<std::int16_t>(left[x + 1] - left[x - 1] + before + ((after - before) * t >> kSlopeBits));
         }
     });
 }
@@ -262,9 +264,12 @@ void SurfaceRefiner::refine(const Scene& scene, ImageView<DispQ8> disparity, Cre
     crew.run(scene.height, [&](int y) {
         for (int x = 0; x < scene.width; ++x) {
             const std::int32_t d = slopes_.row(y)[x].disparity;
-            if (d != kNoSlope)
-                disparity.row(y)[x] =
-                    static_cast<DispQ8>(std::clamp((d + (1 << (kMoreBits - 1))) >> kMoreBits, 0, most));
+            if (d == kNoSlope)
+                continue;
+            DispQ8& was = disparity.row(y)[x];
+            const int is = std::clamp((d + (1 << (kMoreBits - 1))) >> kMoreBits, 0, most);
+            if (std::abs(is - was) <= kFarthest)
+                was = static_cast<DispQ8>(is);
         }
     });
 }
