@@ -201,21 +201,24 @@ TEST(Matcher, ASecondPairIsNotTouchedByTheFirst)
 {
     const Pair first = scene(64, 32, 3, 9, 1);
     const Pair second = scene(64, 32, 6, 12, 2);
-    const MatchOptions options = small_options();
-    Arena measure;
-    ASSERT_TRUE(Matcher::make(64, 32, options, kScalarKernels, 1, measure).ok());
-    std::vector<std::byte> block(measure.peak() + Arena::kAlignment);
-    void* start = block.data();
-    std::size_t space = block.size();
-    ASSERT_NE(std::align(Arena::kAlignment, measure.peak(), start, space), nullptr);
-    Arena arena({static_cast<std::byte*>(start), measure.peak()});
-    Result<Matcher> matcher = Matcher::make(64, 32, options, kScalarKernels, 1, arena);
-    ASSERT_TRUE(matcher.ok()) << matcher.status().message();
-    Alone crew;
-    (void)matcher.value().match(first.left_view(), first.right_view(), crew);
-    const MatchOutcome again = matcher.value().match(second.left_view(), second.right_view(), crew);
-    const Matched fresh(second.left_view(), second.right_view(), options, &kScalarKernels, 1);
-    EXPECT_TRUE(same_bytes(again.map, fresh.map()));
+    for (const MatchMethod method : {MatchMethod::kStandard, MatchMethod::kBest}) {
+        MatchOptions options = small_options();
+        options.method = method;
+        Arena measure;
+        ASSERT_TRUE(Matcher::make(64, 32, options, kScalarKernels, 1, measure).ok());
+        std::vector<std::byte> block(measure.peak() + Arena::kAlignment);
+        void* start = block.data();
+        std::size_t space = block.size();
+        ASSERT_NE(std::align(Arena::kAlignment, measure.peak(), start, space), nullptr);
+        Arena arena({static_cast<std::byte*>(start), measure.peak()});
+        Result<Matcher> matcher = Matcher::make(64, 32, options, kScalarKernels, 1, arena);
+        ASSERT_TRUE(matcher.ok()) << matcher.status().message();
+        Alone crew;
+        (void)matcher.value().match(first.left_view(), first.right_view(), crew);
+        const MatchOutcome again = matcher.value().match(second.left_view(), second.right_view(), crew);
+        const Matched fresh(second.left_view(), second.right_view(), options, &kScalarKernels, 1);
+        EXPECT_TRUE(same_bytes(again.map, fresh.map()));
+    }
 }
 
 TEST(Matcher, AnArenaThatIsTooSmallIsRefusedAndNotWritten)

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kStrip = NearWindow::kStrip;
 /// Parts of 256 that the wide window's cost has beside the narrow one's.
-constexpr int kFarShare = 180;
+constexpr int kFarShare = 205;
 
 std::size_t size_of(int a, int b, int c)
 {

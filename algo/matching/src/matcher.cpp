@@ -1,53 +1,22 @@
 #include "dicot/matching/matcher.h"
 
-#include "column_paths.h"
-#include "cost_rows.h"
-#include "fast_rows.h"
-#include "lab.h"
-#include "planes.h"
-#include "refine.h"
-#include "scanline.h"
-#include "select.h"
+#include "bench.h"
+#include "row_work.h"
 #include "slants.h"
 #include "speckles.h"
-#include "surfaces.h"
 #include "tables.h"
 #include "votes.h"
 
 #include <algorithm>
-#include <atomic>
 #include <new>
 
 namespace dicot {
 namespace matching {
 
-/// One worker's tables.
-struct Station
-{
-    CostRows costs;
-    FastRows fast;
-    ScanlinePass scanline;
-    Selector selector;
-    MatchTimes times;
-};
+namespace {
 
 /// The voters' gamma, in those of the support weights.
 constexpr double kVotersGamma = 1.5;
-
-/// Everything that a matcher owns, in its arena.
-struct Bench
-{
-    Scene scene;
-    LabTables lab;
-    Maps maps;
-    ColourWeights voters;            ///< how much neighbours count when kBest fills: colours may differ more
-    std::span<std::uint8_t> columns; ///< scratch of kBest, one entry a column
-    ColumnPaths paths;               ///< of kBest
-    SurfaceRefiner refiner;          ///< of kBest
-    std::span<Station> stations;
-};
-
-namespace {
 
 template <typename Pixel>
 ImageView<Pixel> take_map(Arena& arena, int width, int height)
@@ -103,92 +72,6 @@ Scene scene_of(int width, int height, const MatchOptions& options, const Kernels
     scene.min_disparity = options.min_disparity;
     scene.near_window = options.method == MatchMethod::kBest && scene.radius >= NearWindow::kRadius;
     return scene;
-}
-
-/// What match() hands to the steps that make the rows.
-struct RowWork
-{
-    Bench& bench;
-    const MatchOptions& options;
-    const MatchHooks& hooks;
-    int workers;
-    std::atomic<int> rows_done{0};
-
-    std::uint64_t clock() const { return hooks.now_ns ? hooks.now_ns() : 0; }
-    Station& station(int worker) { return bench.stations[static_cast<std::size_t>(worker)]; }
-
-    void select(int y, Station& station, AggregatedRow costs)
-    {
-        const auto width = static_cast<std::size_t>(bench.scene.width);
-        SelectedRow row{{bench.maps.disparity.row(y), width},
-                        {bench.maps.confidence.row(y), width},
-                        {bench.maps.verdict.row(y), width}};
-        station.selector.select(bench.scene, costs, options.method != MatchMethod::kPaper, row);
-        const int done = rows_done.fetch_add(1, std::memory_order_relaxed) + 1;
-        if (hooks.rows_done)
-            hooks.rows_done(hooks.context, done, bench.scene.height);
-    }
-};
-
-/// One worker's bands, every row by itself.
-void match_bands(RowWork& work, int worker)
-{
-    const Scene& scene = work.bench.scene;
-    Station& station = work.station(worker);
-    const int rows =
-        work.options.band_rows > 0 ? work.options.band_rows : (scene.height + work.workers - 1) / work.workers;
-    for (int top = worker * rows; top < scene.height; top += work.workers * rows) {
-        station.costs.restart();
-        station.fast.restart();
-        for (int y = top; y < std::min(top + rows, scene.height); ++y) {
-            const AggregatedRow costs = work.options.method == MatchMethod::kFast
-                                            ? station.fast.row(scene, y, station.times, work.hooks.now_ns)
-                                            : station.costs.row(scene, y, station.times, work.hooks.now_ns);
-            const std::uint64_t since = work.clock();
-            if (work.options.method != MatchMethod::kPaper)
-                station.scanline.smooth(scene, y, costs);
-            work.select(y, station, costs);
-            station.times.select += work.clock() - since;
-        }
-    }
-}
-
-/// All workers in step: the costs of a chunk of rows and of those below it, its columns, its rows.
-void match_chunks(RowWork& work, Crew& crew)
-{
-    const Scene& scene = work.bench.scene;
-    ColumnPaths& paths = work.bench.paths;
-    for (int worker = 0; worker < work.workers; ++worker)
-        work.station(worker).costs.restart();
-    int made = 0;
-    for (int chunk = 0; chunk * ColumnPaths::kChunk < scene.height; ++chunk) {
-        const int end = paths.end_of_costs(scene, chunk);
-        crew.run(work.workers, [&](int worker) {
-            Station& station = work.station(worker);
-            for (int y = made + worker; y < end; y += work.workers) {
-                const AggregatedRow costs = station.costs.row(scene, y, station.times, work.hooks.now_ns);
-                std::ranges::copy(costs, paths.costs(scene, y).begin());
-            }
-        });
-        made = end;
-        const auto timed = [&](auto&& step) {
-            crew.run(work.workers, [&](int worker) {
-                const std::uint64_t since = work.clock();
-                step(worker);
-                work.station(worker).times.select += work.clock() - since;
-            });
-        };
-        timed([&](int worker) { paths.walk(scene, chunk, worker, work.workers); });
-        timed([&](int worker) {
-            Station& station = work.station(worker);
-            const int top = chunk * ColumnPaths::kChunk;
-            for (int y = top + worker; y < std::min(top + ColumnPaths::kChunk, scene.height); y += work.workers) {
-                station.scanline.smooth(scene, y, paths.costs(scene, y));
-                paths.join(scene, y);
-                work.select(y, station, paths.costs(scene, y));
-            }
-        });
-    }
 }
 
 } // namespace
@@ -291,16 +174,10 @@ MatchOutcome Matcher::match(ImageView<const Rgb8> left, ImageView<const Rgb8> ri
     });
     const std::uint64_t prepared = clock();
 
-    for (Station& station : bench.stations)
-        station.times = {};
-    RowWork work{bench, options_, hooks, workers};
-    const bool best = options_.method == MatchMethod::kBest;
-    if (best)
-        match_chunks(work, crew);
-    else
-        crew.run(workers, [&](int worker) { match_bands(work, worker); });
+    RowWork(bench, options_, hooks, workers).run(crew);
 
     const std::uint64_t matched = clock();
+    const bool best = options_.method == MatchMethod::kBest;
     if (best) {
         drop_clipped(bench.maps, scene.min_disparity);
         drop_speckles(bench.maps, bench.columns);
