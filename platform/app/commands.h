@@ -5,6 +5,7 @@
 
 namespace dicot::app {
 
+void add_accuracy(CLI::App& program, Command& chosen);
 void add_aim(CLI::App& program, Command& chosen);
 void add_archive(CLI::App& program, Command& chosen);
 void add_bench(CLI::App& program, Command& chosen);

@@ -21,7 +21,8 @@ constexpr double kOurPngScale = 256; // of the 16-bit PNG that match writes
 constexpr const char* kAbout = "A pixel is judged when its truth is known and the mask counts "
                                "it. bad-N is the share of judged pixels that are off by more than N px; a pixel "
                                "without a disparity counts as bad, "
-                               "and is left out of the mean and RMS errors; density is the share that has one. A truth "
+                               "and is left out of the mean and RMS errors, and of the rates of those with a "
+                               "disparity; density is the share that has one. A truth "
                                "that is k times as large as "
                                "the map is taken at the centres of the map's pixels and divided by k.";
 
@@ -88,10 +89,12 @@ Result<Inputs> read_inputs(const EvaluateWords& words)
 
 void print_json(const EvaluateWords& words, const MapJudgement& found)
 {
+    const auto where_valued = [&](double error) { return found.valued > 0 ? nlohmann::json(error) : nlohmann::json(); };
     nlohmann::json bad;
     for (std::size_t i = 0; i < kBadThresholdsPx.size(); ++i)
-        bad.push_back({{"threshold_px", kBadThresholdsPx[i]}, {"percent", 100 * found.bad_share(i)}});
-    const auto where_valued = [&](double error) { return found.valued > 0 ? nlohmann::json(error) : nlohmann::json(); };
+        bad.push_back({{"threshold_px", kBadThresholdsPx[i]},
+                       {"percent", 100 * found.bad_share(i)},
+                       {"percent_of_valued", where_valued(100 * found.wrong_share(i))}});
     const nlohmann::json report = {{"map", words.map},
                                    {"truth", words.truth},
                                    {"judged_pixels", found.judged},
@@ -106,8 +109,12 @@ void print(const EvaluateWords& words, const MapJudgement& found)
 {
     std::printf("%s: %lld pixels judged, %.2f %% of them have a disparity\n", words.map.c_str(),
                 static_cast<long long>(found.judged), 100 * found.density());
-    for (std::size_t i = 0; i < kBadThresholdsPx.size(); ++i)
-        std::printf("bad-%-4g %6.2f %%\n", kBadThresholdsPx[i], 100 * found.bad_share(i));
+    for (std::size_t i = 0; i < kBadThresholdsPx.size(); ++i) {
+        std::printf("bad-%-4g %6.2f %%", kBadThresholdsPx[i], 100 * found.bad_share(i));
+        if (found.valued > 0)
+            std::printf("   %6.2f %% of those with a disparity", 100 * found.wrong_share(i));
+        std::printf("\n");
+    }
     if (found.valued > 0)
         std::printf("mean error %.3f px, RMS error %.3f px\n", found.mean_error_px, found.rms_error_px);
 }
@@ -136,8 +143,7 @@ void add_evaluate(CLI::App& program, Command& chosen)
     auto words = std::make_shared<EvaluateWords>();
     command->add_option("DISPARITY", words->map, "disparity map: .pfm, or 16-bit .png (px x 256, 0 = missing)")
         ->required();
-    command->add_option("TRUTH", words->truth, "ground truth: grey PNG of 8 or 16 bits (0 = unknown), or PFM")
-        ->required();
+    command->add_option("GT", words->truth, "ground truth: grey PNG of 8 or 16 bits (0 = unknown), or PFM")->required();
     command->add_option("--mask", words->mask, "picture that is white (255) where a pixel counts");
     command->add_option("--scale", words->scale, "what a PNG's ground truth is divided by")
         ->check(CLI::Range(1e-3, 1e5))

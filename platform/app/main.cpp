@@ -35,6 +35,7 @@ int main(int argc, char** argv)
     program.require_subcommand(1);
 
     app::Command chosen;
+    app::add_accuracy(program, chosen);
     app::add_aim(program, chosen);
     app::add_bench(program, chosen);
     app::add_calibrate(program, chosen);

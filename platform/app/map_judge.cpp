@@ -36,6 +36,8 @@ MapJudgement judge_map(ImageView<const float> map, ImageView<const float> truth,
                 found.bad[i] += error > kBadThresholdsPx[i];
             if (!std::isfinite(error))
                 continue;
+            for (std::size_t i = 0; i < kBadThresholdsPx.size(); ++i)
+                found.wrong[i] += error > kBadThresholdsPx[i];
             ++found.valued;
             sum += error;
             sum_of_squares += error * error;

@@ -18,16 +18,19 @@ struct MapJudgement
     std::int64_t judged = 0;                                 ///< pixels whose truth is known and which the mask counts
     std::int64_t valued = 0;                                 ///< of these, pixels with a disparity
     std::array<std::int64_t, kBadThresholdsPx.size()> bad{}; ///< off by more than the threshold, or without a disparity
+    std::array<std::int64_t, kBadThresholdsPx.size()> wrong{}; ///< of these, those with a disparity
     double mean_error_px = 0; ///< mean absolute error where there is a disparity; 0 when there is none
     double rms_error_px = 0;  ///< root mean square error, likewise
 
-    double density() const { return share(valued); }
-    double bad_share(std::size_t threshold) const { return share(bad[threshold]); }
+    double density() const { return share(valued, judged); }
+    double bad_share(std::size_t threshold) const { return share(bad[threshold], judged); }
+    /// Of the pixels with a disparity.
+    double wrong_share(std::size_t threshold) const { return share(wrong[threshold], valued); }
 
 private:
-    double share(std::int64_t part) const
+    static double share(std::int64_t part, std::int64_t whole)
     {
-        return judged == 0 ? 0 : static_cast<double>(part) / static_cast<double>(judged);
+        return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
     }
 };
 

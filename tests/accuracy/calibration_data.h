@@ -139,10 +139,10 @@ inline int add_pairs(const PairSet& set, CalibrationTask& task)
     return missed;
 }
 
-/// The rig of rig-dev as it was rendered.
-inline StereoRig rig_dev_truth()
+/// A rig as it was rendered, from its gt_calib*.json.
+inline StereoRig true_rig(const std::string& inner)
 {
-    const auto json = nlohmann::json::parse(std::ifstream(data_path("rig-dev/calibration/gt_calib.json")));
+    const auto json = nlohmann::json::parse(std::ifstream(data_path(inner)));
     const auto lens = [&](const char* k, const char* d) {
         Lens l{json[k][0][0], json[k][1][1], json[k][0][2], json[k][1][2], {}};
         for (std::size_t i = 0; i < 5; ++i)
@@ -158,6 +158,11 @@ inline StereoRig rig_dev_truth()
         rig.turn[i] = json["R"][i / 3][i % 3];
     rig.shift_mm = {json["t_mm"][0], json["t_mm"][1], json["t_mm"][2]};
     return rig;
+}
+
+inline StereoRig rig_dev_truth()
+{
+    return true_rig("rig-dev/calibration/gt_calib.json");
 }
 
 } // namespace dicot::test

@@ -177,6 +177,110 @@ TEST(KernelMutants, ReadingOneByteBeforeARowIsFoundOut)
     EXPECT_NE(std::string(verdict.fault).find("outside"), std::string::npos) << verdict.fault;
 }
 
+TEST(KernelMutants, APathThatLosesTheNeighbourAcrossTwoVectorsIsFoundOut)
+{
+    Kernels mutant = law_called("loses a neighbour");
+    mutant.path_step = [](std::uint16_t* ahead, const std::uint16_t* costs, const std::uint16_t* behind,
+                          std::uint16_t least, PathPenalty penalty, int first, int axis) {
+        std::uint16_t lost[256];
+        std::copy_n(behind, axis, lost);
+        kScalarKernels.path_step(ahead, costs, behind, least, penalty, first, axis);
+        if (axis > 16) {
+            lost[15] = kNoCandidate;
+            std::uint16_t without[256];
+            kScalarKernels.path_step(without, costs, lost, least, penalty, first, axis);
+            ahead[16] = without[16];
+        }
+        return *std::min_element(ahead, ahead + axis);
+    };
+    expect_found_out(mutant, "path_step");
+}
+
+TEST(KernelMutants, ASumThatWrapsInsteadOfSaturatingIsFoundOut)
+{
+    Kernels mutant = law_called("wraps");
+    mutant.path_step = [](std::uint16_t* ahead, const std::uint16_t* costs, const std::uint16_t* behind,
+                          std::uint16_t least, PathPenalty penalty, int first, int axis) {
+        std::uint16_t worst = 0;
+        for (int r = first; r < axis; ++r)
+            worst = std::max(worst, costs[r] == kNoCandidate ? std::uint16_t{0} : costs[r]);
+        std::fill_n(ahead, first, kNoCandidate);
+        for (int r = first; r < axis; ++r) {
+            const std::uint16_t before = r > first ? behind[r - 1] : kNoCandidate;
+            const std::uint16_t after = r + 1 < axis ? behind[r + 1] : kNoCandidate;
+            const auto near = static_cast<std::uint16_t>(std::min(before, after) + penalty.small);
+            const auto jump = static_cast<std::uint16_t>(least + penalty.large);
+            ahead[r] = static_cast<std::uint16_t>(std::min(costs[r], worst) +
+                                                  std::min(std::min(behind[r], near), jump) - least);
+        }
+        return *std::min_element(ahead, ahead + axis);
+    };
+    expect_found_out(mutant, "path_step");
+}
+
+TEST(KernelMutants, APositionWithoutCandidateThatCostsTheMostThereIsIsFoundOut)
+{
+    Kernels mutant = law_called("knows the worst");
+    mutant.path_step = [](std::uint16_t* ahead, const std::uint16_t* costs, const std::uint16_t* behind,
+                          std::uint16_t least, PathPenalty penalty, int first, int axis) {
+        std::uint16_t seen[256];
+        std::replace_copy(costs, costs + axis, seen, kNoCandidate, std::uint16_t{kWorstCost});
+        return kScalarKernels.path_step(ahead, seen, behind, least, penalty, first, axis);
+    };
+    expect_found_out(mutant, "path_step");
+}
+
+TEST(KernelMutants, TheFirstOfTwoEqualWinnersIsFoundOut)
+{
+    Kernels mutant = law_called("takes the first");
+    mutant.winners = [](Winner* out, const std::uint16_t* costs, int n, int axis) {
+        kScalarKernels.winners(out, costs, n, axis);
+        for (int i = 0; i < n; ++i) {
+            const std::uint16_t* const from = costs + i * axis;
+            out[i].position = static_cast<std::uint16_t>(std::min_element(from, from + axis) - from);
+        }
+    };
+    expect_found_out(mutant, "winners");
+}
+
+TEST(KernelMutants, ARivalBesideTheWinnerIsFoundOut)
+{
+    Kernels mutant = law_called("takes a neighbour for a rival");
+    mutant.winners = [](Winner* out, const std::uint16_t* costs, int n, int axis) {
+        kScalarKernels.winners(out, costs, n, axis);
+        for (int i = 0; i < n; ++i)
+            if (out[i].position > 0)
+                out[i].runner_up = std::min(out[i].runner_up, costs[i * axis + out[i].position - 1]);
+    };
+    expect_found_out(mutant, "winners");
+}
+
+TEST(KernelMutants, ALaterPixelThatWinsATieOnTheRightIsFoundOut)
+{
+    Kernels mutant = law_called("lets the later one win");
+    mutant.right_winners = [](std::uint16_t* cost, std::uint16_t* position, const std::uint16_t* costs, int n,
+                              int axis) {
+        kScalarKernels.right_winners(cost, position, costs, n, axis);
+        for (int i = 0; i < n; ++i)
+            for (int r = 0; r < axis; ++r)
+                if (costs[i * axis + r] == cost[i + r] && cost[i + r] != kNoCandidate)
+                    position[i + r] = static_cast<std::uint16_t>(r);
+    };
+    expect_found_out(mutant, "right_winners");
+}
+
+TEST(KernelMutants, ForgottenEntriesBehindTheLastPixelAreFoundOut)
+{
+    Kernels mutant = law_called("stops at the row's end");
+    mutant.right_winners = [](std::uint16_t* cost, std::uint16_t* position, const std::uint16_t* costs, int n,
+                              int axis) {
+        kScalarKernels.right_winners(cost, position, costs, n, axis);
+        for (int j = n; j < n + axis - 1 && n > 0; ++j)
+            cost[j] = kNoCandidate;
+    };
+    expect_found_out(mutant, "right_winners");
+}
+
 /// The law of remap_row with positions moved by `shift` before they are rounded, within the contract's domain.
 void remap_moved(std::uint8_t* rgb, int n, const RemapSpan* spans, int cell_log2, const RemapSource& source, int shift)
 {

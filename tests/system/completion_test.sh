@@ -64,7 +64,7 @@ done
 same "a beginning is completed" "$(printf 'calibrate\ncapture')" "$(completed ca)"
 same "a command of a command" tables "$(completed rig t)"
 same "an option's beginning" --near-mm "$(completed process left.png right.png --nea)"
-same "choices of an option" "$(printf 'paper\nstandard')" "$(completed match --method '')"
+same "choices of an option" "$(printf 'best\nfast\npaper\nstandard')" "$(completed match --method '')"
 same "a choice's beginning" neon "$(completed match --method paper --cpu n)"
 same "files for an option that names one" "$checkout/LICENSE" "$(completed process --rig "$checkout/LICEN")"
 same "files for a plain word" "$checkout/LICENSE" "$(completed info "$checkout/LICEN")"

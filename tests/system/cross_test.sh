@@ -89,7 +89,7 @@ raw_rig=$checkout/tests/fuzz/corpus/rig/unrectified.yaml # two webcams of 1280 x
 # Everything that is compared, written into one folder by `program` (a command line).
 write_all() { # program, folder
     mkdir -p "$2"
-    for method in paper standard; do
+    for method in paper fast standard; do
         $1 match "$work/left.ppm" "$work/right.ppm" -o "$2/$method.pfm" --disparities 24 --method $method >/dev/null
         $1 match "$work/left.ppm" "$work/right.ppm" -o "$2/$method-dense.png" --disparities 24 --method $method --dense \
             >/dev/null

@@ -62,7 +62,9 @@ TEST(Evaluate, AMapMeetsAScaledTruth)
     EXPECT_NEAR(report["density"], 2.0 / 3, 1e-12);
     EXPECT_NEAR(bad_percent(report, 2), 200.0 / 3, 1e-9);
     EXPECT_NEAR(bad_percent(report, 4), 100.0 / 3, 1e-9);
+    EXPECT_EQ(report["bad"][2]["percent_of_valued"], 50) << "13 for 10, beside 10 for 10";
     EXPECT_DOUBLE_EQ(report["mean_error_px"], 1.5);
+    EXPECT_NEAR(report["rms_error_px"], 2.1213203435596424, 1e-12);
 }
 
 TEST(Evaluate, TheMaskChoosesThePixels)
@@ -94,6 +96,8 @@ TEST(Evaluate, WithoutAnyDisparityThereIsNoMeanError)
     const auto report = nlohmann::json::parse(evaluate(none + " " + files.truth + " --scale 4 --json").output);
     EXPECT_EQ(report["density"], 0);
     EXPECT_TRUE(report["mean_error_px"].is_null());
+    EXPECT_TRUE(report["rms_error_px"].is_null());
+    EXPECT_TRUE(report["bad"][0]["percent_of_valued"].is_null());
     EXPECT_EQ(bad_percent(report, 4), 100);
 }
 

@@ -27,6 +27,8 @@ TEST(JudgeMap, SixPixelsWorkedByHand)
     EXPECT_EQ(found.bad[2], 2);
     EXPECT_EQ(found.bad[3], 2);
     EXPECT_DOUBLE_EQ(found.bad_share(2), 0.4);
+    EXPECT_EQ(found.wrong, (std::array<std::int64_t, 4>{3, 2, 1, 1})) << "the missing one is bad, not wrong";
+    EXPECT_DOUBLE_EQ(found.wrong_share(2), 0.25);
     EXPECT_DOUBLE_EQ(found.mean_error_px, 7.25 / 4);
     EXPECT_DOUBLE_EQ(found.rms_error_px, std::sqrt((0.5625 + 2.25 + 25) / 4));
 }

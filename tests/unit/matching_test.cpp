@@ -74,6 +74,54 @@ TEST(Matcher, FindsThePlaneAndTheSquareInFrontOfIt)
     EXPECT_NEAR(matched.map().relative.at(75, 30) / 256.0, 15.0, 0.3);
 }
 
+TEST(Matcher, FastFindsThemToo)
+{
+    const Pair pair = scene(120, 60, 5, 15, 7);
+    MatchOptions options = small_options();
+    options.method = MatchMethod::kFast;
+    const Matched matched(pair.left_view(), pair.right_view(), options);
+    EXPECT_NEAR(matched.map().relative.at(30, 30) / 256.0, 5.0, 0.3);
+    EXPECT_NEAR(matched.map().relative.at(75, 30) / 256.0, 15.0, 0.3);
+    EXPECT_EQ(matched.map().relative.at(56, 30), kDispMissing);
+}
+
+TEST(Matcher, FastMatchesWithTheSmallestWindowsAndEveryWindowBetweenPairs)
+{
+    // Rows and slots pair differently with 1, 2, 3, 4 rows on each side, and a picture may be lower than its window.
+    for (const int window : {3, 5, 7, 9, 35}) {
+        for (const int height : {8, 41}) {
+            const Pair pair = scene(107, height, 4, 4, 5);
+            MatchOptions options = small_options();
+            options.method = MatchMethod::kFast;
+            options.window = window;
+            const Matched law(pair.left_view(), pair.right_view(), options, &kScalarKernels, 1);
+            options.band_rows = 3;
+            const Matched other(pair.left_view(), pair.right_view(), options, nullptr, 2);
+            EXPECT_TRUE(same_bytes(law.map(), other.map())) << window << ", " << height;
+            EXPECT_NEAR(law.map().relative.at(40, height / 2) / 256.0, 4.0, 0.3) << window << ", " << height;
+        }
+    }
+}
+
+TEST(Matcher, FastTakesNoMoreMemoryThanStandard)
+{
+    struct Size
+    {
+        int width, height, disparities;
+    };
+    for (const Size size : {Size{640, 480, 64}, Size{1280, 720, 121}}) {
+        const auto need = [&](MatchMethod method) {
+            MatchOptions options;
+            options.disparities = size.disparities;
+            options.method = method;
+            Arena measure;
+            EXPECT_TRUE(Matcher::make(size.width, size.height, options, kScalarKernels, 2, measure).ok());
+            return measure.peak();
+        };
+        EXPECT_LE(need(MatchMethod::kFast), need(MatchMethod::kStandard)) << size.width;
+    }
+}
+
 TEST(Matcher, StandardLeavesHiddenPixelsWithoutAValueAndDenseFillsThemFromBehind)
 {
     const Pair pair = scene(120, 60, 5, 15, 7);
@@ -124,7 +172,8 @@ class SameBytes : public ::testing::TestWithParam<Variant>
 TEST_P(SameBytes, ForAnyThreadsBandsAndKernels)
 {
     const Variant variant = GetParam();
-    for (const MatchMethod method : {MatchMethod::kPaper, MatchMethod::kStandard}) {
+    for (const MatchMethod method :
+         {MatchMethod::kPaper, MatchMethod::kFast, MatchMethod::kStandard, MatchMethod::kBest}) {
         for (const bool dense : {false, true}) {
             // Odd sizes: strips, groups and vectors all end in the middle.
             const Pair pair = scene(107, 43, 4, 13, 23);
@@ -185,16 +234,19 @@ TEST(Matcher, AnArenaThatIsTooSmallIsRefusedAndNotWritten)
 TEST(Matcher, FlatPicturesGiveNoValueUnlessTheyMustBeDense)
 {
     Pair pair{40, 20, std::vector<Rgb8>(800, Rgb8{90, 120, 60}), std::vector<Rgb8>(800, Rgb8{90, 120, 60})};
-    MatchOptions options = small_options();
-    const Matched sparse(pair.left_view(), pair.right_view(), options);
-    for (int y = 0; y < 20; ++y)
-        for (int x = 0; x < 40; ++x)
-            ASSERT_EQ(sparse.map().relative.at(x, y), kDispMissing) << x << ", " << y;
-    options.dense = true;
-    const Matched dense(pair.left_view(), pair.right_view(), options);
-    for (int y = 0; y < 20; ++y)
-        for (int x = 0; x < 40; ++x)
-            ASSERT_NE(dense.map().relative.at(x, y), kDispMissing) << x << ", " << y;
+    for (const MatchMethod method : {MatchMethod::kFast, MatchMethod::kStandard}) {
+        MatchOptions options = small_options();
+        options.method = method;
+        const Matched sparse(pair.left_view(), pair.right_view(), options);
+        for (int y = 0; y < 20; ++y)
+            for (int x = 0; x < 40; ++x)
+                ASSERT_EQ(sparse.map().relative.at(x, y), kDispMissing) << x << ", " << y;
+        options.dense = true;
+        const Matched dense(pair.left_view(), pair.right_view(), options);
+        for (int y = 0; y < 20; ++y)
+            for (int x = 0; x < 40; ++x)
+                ASSERT_NE(dense.map().relative.at(x, y), kDispMissing) << x << ", " << y;
+    }
 }
 
 TEST(Matcher, RefusesWhatItCannotMatchAndNamesTheRange)

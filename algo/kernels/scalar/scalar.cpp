@@ -1,6 +1,7 @@
 // The law: the shortest loops that a reader can hold against the paper and the contract in kernels.h.
 #include "dicot/kernels/kernels.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdlib>
@@ -80,6 +81,61 @@ void normalise(std::uint16_t* out, const std::uint32_t* numerator, const std::ui
         out[i] = static_cast<std::uint16_t>(std::uint64_t{numerator[i]} * 256 / denominator[i]);
 }
 
+std::uint16_t path_step(std::uint16_t* ahead, const std::uint16_t* costs, const std::uint16_t* behind,
+                        std::uint16_t least, PathPenalty penalty, int first, int axis)
+{
+    // What cannot be seen is neither better nor worse than the worst of what can.
+    int worst = 0;
+    for (int r = first; r < axis; ++r)
+        worst = std::max(worst, costs[r] == kNoCandidate ? 0 : int{costs[r]});
+
+    std::fill(ahead, ahead + first, kNoCandidate);
+    int least_ahead = kNoCandidate;
+    for (int r = first; r < axis; ++r) {
+        int best = std::min<int>(behind[r], least + penalty.large);
+        if (r > first)
+            best = std::min(best, behind[r - 1] + penalty.small);
+        if (r + 1 < axis)
+            best = std::min(best, behind[r + 1] + penalty.small);
+        const int path = std::min<int>(costs[r], worst) + best - least;
+        ahead[r] = static_cast<std::uint16_t>(path);
+        least_ahead = std::min(least_ahead, path);
+    }
+    return static_cast<std::uint16_t>(least_ahead);
+}
+
+void winners(Winner* out, const std::uint16_t* costs, int n, int axis)
+{
+    for (int i = 0; i < n; ++i, costs += axis) {
+        int position = 0;
+        for (int r = 1; r < axis; ++r)
+            if (costs[r] <= costs[position])
+                position = r;
+        std::uint16_t runner_up = kNoCandidate;
+        for (int r = 0; r < axis; ++r)
+            if (std::abs(r - position) > 1)
+                runner_up = std::min(runner_up, costs[r]);
+        out[i] = {static_cast<std::uint16_t>(position), costs[position], runner_up};
+    }
+}
+
+void right_winners(std::uint16_t* cost, std::uint16_t* position, const std::uint16_t* costs, int n, int axis)
+{
+    if (n == 0)
+        return;
+    std::fill(cost, cost + n + axis - 1, kNoCandidate);
+    std::fill(position, position + n + axis - 1, std::uint16_t{0});
+    // Seen from a fixed entry, r falls as i grows: strictly less keeps the largest r.
+    for (int i = 0; i < n; ++i) {
+        for (int r = 0; r < axis; ++r) {
+            if (costs[i * axis + r] < cost[i + r]) {
+                cost[i + r] = costs[i * axis + r];
+                position[i + r] = static_cast<std::uint16_t>(r);
+            }
+        }
+    }
+}
+
 void remap_row(std::uint8_t* rgb, int n, const RemapSpan* spans, int cell_log2, const RemapSource& source)
 {
     for (int i = 0; i < n; ++i) {
@@ -108,6 +164,7 @@ void remap_row(std::uint8_t* rgb, int n, const RemapSpan* spans, int cell_log2, 
 
 } // namespace
 
-const Kernels kScalarKernels = {"scalar", support_weights, match_cost, aggregate, normalise, remap_row};
+const Kernels kScalarKernels = {"scalar",  support_weights, match_cost,    aggregate, normalise,
+                                path_step, winners,         right_winners, remap_row};
 
 } // namespace dicot

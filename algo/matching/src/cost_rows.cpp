@@ -6,9 +6,9 @@
 namespace dicot::matching {
 namespace {
 
-/// Pixels whose support weights are held at a time: long enough to spread the cost of moving the right table on,
-/// short enough for a group's tables and costs to stay in a 48 KiB first-level cache.
-constexpr int kStrip = 32;
+constexpr int kStrip = NearWindow::kStrip;
+/// Parts of 256 that the wide window's cost has beside the narrow one's.
+constexpr int kFarShare = 180;
 
 std::size_t size_of(int a, int b, int c)
 {
@@ -16,6 +16,15 @@ std::size_t size_of(int a, int b, int c)
 }
 
 } // namespace
+
+Candidates candidates_of(const Scene& scene, int x)
+{
+    // Relative disparities whose partner is a column 0 .. width - 1 of the picture, which is shifted in the search
+    // frame.
+    const int nearest = std::max(0, x - (scene.width - 1 + scene.min_disparity));
+    const int farthest = std::min(scene.disparities - 1, x - scene.min_disparity);
+    return {scene.axis - 1 - farthest, scene.axis - 1 - nearest};
+}
 
 /// The two picture rows of a group when row y is matched, and where they lie in the window.
 struct CostRows::GroupRows
@@ -38,6 +47,10 @@ void CostRows::lay_out(Arena& arena, const Scene& scene)
     numerator_ = arena.take<std::uint32_t>(size_of(1, kStrip, scene.axis));
     denominator_ = arena.take<std::uint32_t>(size_of(1, kStrip, scene.axis));
     row_ = arena.take<std::uint16_t>(size_of(1, scene.width, scene.axis));
+    if (scene.near_window) {
+        near_row_ = arena.take<std::uint16_t>(size_of(1, 1, scene.axis));
+        near_.lay_out(arena, scene);
+    }
     std::fill(costs_.begin(), costs_.end(), PairU16{0, 0});
     std::fill(left_.begin(), left_.end(), PairU16{0, 0});
     std::fill(right_.begin(), right_.end(), PairU16{0, 0});
@@ -79,11 +92,6 @@ PairU16 spatial_pair(std::span<const std::uint16_t> spatial, int columns, int lo
         return in ? spatial[size_of(1, row, columns) + static_cast<std::size_t>(column)] : std::uint16_t{0};
     };
     return {weight(low_row, low_in), weight(high_row, high_in)};
-}
-
-LabRow moved(LabRow row, int columns)
-{
-    return {row.la + columns, row.b + columns};
 }
 
 } // namespace
@@ -153,16 +161,32 @@ void CostRows::divide(const Scene& scene, int x0, int count)
 {
     for (int i = 0; i < count; ++i) {
         const int x = x0 + i;
-        // Relative disparities whose partner x - d lies in the right picture (columns of the search frame).
-        const int nearest = std::max(0, x - (scene.width - 1 + scene.min_disparity));
-        const int farthest = std::min(scene.disparities - 1, x - scene.min_disparity);
+        const auto [first, last] = candidates_of(scene, x);
         const auto to = row_.begin() + x * scene.axis;
         std::fill(to, to + scene.axis, kNoCandidate);
-        if (farthest < nearest)
+        if (last < first)
             continue;
-        const int r = scene.axis - 1 - farthest;
-        const std::size_t at = static_cast<std::size_t>(i * scene.axis + r);
-        scene.kernels->normalise(&to[r], numerator_.data() + at, denominator_.data() + at, farthest - nearest + 1);
+        const std::size_t at = static_cast<std::size_t>(i * scene.axis + first);
+        scene.kernels->normalise(&to[first], numerator_.data() + at, denominator_.data() + at, last - first + 1);
+    }
+}
+
+void CostRows::mix_near(const Scene& scene, int y, int x0, int count)
+{
+    std::fill(numerator_.begin(), numerator_.end(), 0u);
+    std::fill(denominator_.begin(), denominator_.end(), 0u);
+    near_.aggregate(scene, y, x0, count, {costs_.data(), groups_, cost_width_, scene.radius}, numerator_.data(),
+                    denominator_.data());
+    for (int i = 0; i < count; ++i) {
+        const auto [first, last] = candidates_of(scene, x0 + i);
+        if (last < first)
+            continue;
+        const std::size_t at = size_of(1, i, scene.axis) + static_cast<std::size_t>(first);
+        scene.kernels->normalise(near_row_.data(), numerator_.data() + at, denominator_.data() + at, last - first + 1);
+        std::uint16_t* const to = &row_[size_of(1, x0 + i, scene.axis) + static_cast<std::size_t>(first)];
+        for (int k = 0; k <= last - first; ++k)
+            to[k] = static_cast<std::uint16_t>(
+                (to[k] * kFarShare + near_row_[static_cast<std::size_t>(k)] * (256 - kFarShare) + 128) >> 8);
     }
 }
 
@@ -196,6 +220,10 @@ AggregatedRow CostRows::row(const Scene& scene, int y, MatchTimes& times, std::u
         lap(times.aggregate);
         divide(scene, x0, count);
         lap(times.select);
+        if (scene.near_window) {
+            mix_near(scene, y, x0, count);
+            lap(times.aggregate);
+        }
     }
     return row_;
 }

@@ -4,15 +4,13 @@
 #include "dicot/base/arena.h"
 #include "dicot/kernels/kernels.h"
 #include "dicot/matching/matcher.h"
+#include "near_window.h"
 #include "planes.h"
 #include "tables.h"
 
 #include <span>
 
 namespace dicot::matching {
-
-/// Marks a disparity whose partner lies outside the right picture.
-inline constexpr std::uint16_t kNoCandidate = 0xFFFF;
 
 /// What all workers share while they match one pair.
 struct Scene
@@ -30,10 +28,23 @@ struct Scene
     int disparities; ///< as asked for
     int axis;        ///< disparities, padded to whole vectors
     int min_disparity;
+    bool near_window; ///< mix the costs of a narrow window in; needs a radius of 3 at least
 };
 
 /// The aggregated costs of one row: [width][axis], index r = axis - 1 - d; kNoCandidate where there is no partner.
 using AggregatedRow = std::span<std::uint16_t>;
+
+/// The indices r of pixel x of which the partner lies in the right picture; empty when last < first.
+struct Candidates
+{
+    int first, last;
+};
+Candidates candidates_of(const Scene& scene, int x);
+
+inline LabRow moved(LabRow row, int columns)
+{
+    return {row.la + columns, row.b + columns};
+}
 
 /// One worker's tables: a ring of raw costs as high as the window, and the support weights of a strip of pixels.
 class CostRows
@@ -55,6 +66,7 @@ private:
     void right_weights(const Scene& scene, int y, int first, int count, int at);
     void aggregate(const Scene& scene, int y, int x0, int count);
     void divide(const Scene& scene, int x0, int count);
+    void mix_near(const Scene& scene, int y, int x0, int count);
 
     int groups_ = 0;
     int columns_ = 0;
@@ -66,6 +78,8 @@ private:
     std::span<PairU16> right_;                         ///< [groups][columns][right_stride]
     std::span<std::uint32_t> numerator_, denominator_; ///< [kStrip][axis]
     std::span<std::uint16_t> row_;                     ///< [width][axis]
+    std::span<std::uint16_t> near_row_;                ///< [axis]
+    NearWindow near_;
 };
 
 } // namespace dicot::matching

@@ -1,12 +1,17 @@
 #include "dicot/matching/matcher.h"
 
+#include "column_paths.h"
 #include "cost_rows.h"
+#include "fast_rows.h"
 #include "lab.h"
 #include "planes.h"
 #include "refine.h"
 #include "scanline.h"
 #include "select.h"
+#include "slants.h"
+#include "speckles.h"
 #include "tables.h"
+#include "votes.h"
 
 #include <algorithm>
 #include <atomic>
@@ -19,10 +24,14 @@ namespace matching {
 struct Station
 {
     CostRows costs;
+    FastRows fast;
     ScanlinePass scanline;
     Selector selector;
     MatchTimes times;
 };
+
+/// The voters' gamma, in those of the support weights.
+constexpr double kVotersGamma = 1.5;
 
 /// Everything that a matcher owns, in its arena.
 struct Bench
@@ -30,6 +39,9 @@ struct Bench
     Scene scene;
     LabTables lab;
     Maps maps;
+    ColourWeights voters;            ///< how much neighbours count when kBest fills: colours may differ more
+    std::span<std::uint8_t> columns; ///< scratch of kBest, one entry a column
+    ColumnPaths paths;               ///< of kBest
     std::span<Station> stations;
 };
 
@@ -57,10 +69,17 @@ void lay_out(Bench& bench, Arena& arena, const MatchOptions& options, int worker
     bench.maps.verdict = take_map<Verdict>(arena, scene.width, scene.height);
     if (options.dense && options.method != MatchMethod::kPaper)
         bench.maps.scratch = take_map<DispQ8>(arena, scene.width, scene.height);
+    if (options.method == MatchMethod::kBest) {
+        bench.columns = arena.take<std::uint8_t>(static_cast<std::size_t>(scene.width));
+        bench.paths.lay_out(arena, scene, workers);
+    }
     for (int i = 0; i < workers; ++i) {
         Station measured;
         Station& station = arena.measuring() ? measured : bench.stations[static_cast<std::size_t>(i)];
-        station.costs.lay_out(arena, scene);
+        if (options.method == MatchMethod::kFast)
+            station.fast.lay_out(arena, scene);
+        else
+            station.costs.lay_out(arena, scene);
         if (options.method != MatchMethod::kPaper)
             station.scanline.lay_out(arena, scene);
         station.selector.lay_out(arena, scene);
@@ -77,7 +96,94 @@ Scene scene_of(int width, int height, const MatchOptions& options, const Kernels
     scene.disparities = options.disparities;
     scene.axis = (options.disparities + kLanes - 1) / kLanes * kLanes;
     scene.min_disparity = options.min_disparity;
+    scene.near_window = options.method == MatchMethod::kBest && scene.radius >= NearWindow::kRadius;
     return scene;
+}
+
+/// What match() hands to the steps that make the rows.
+struct RowWork
+{
+    Bench& bench;
+    const MatchOptions& options;
+    const MatchHooks& hooks;
+    int workers;
+    std::atomic<int> rows_done{0};
+
+    std::uint64_t clock() const { return hooks.now_ns ? hooks.now_ns() : 0; }
+    Station& station(int worker) { return bench.stations[static_cast<std::size_t>(worker)]; }
+
+    void select(int y, Station& station, AggregatedRow costs)
+    {
+        const auto width = static_cast<std::size_t>(bench.scene.width);
+        SelectedRow row{{bench.maps.disparity.row(y), width},
+                        {bench.maps.confidence.row(y), width},
+                        {bench.maps.verdict.row(y), width}};
+        station.selector.select(bench.scene, costs, options.method != MatchMethod::kPaper, row);
+        const int done = rows_done.fetch_add(1, std::memory_order_relaxed) + 1;
+        if (hooks.rows_done)
+            hooks.rows_done(hooks.context, done, bench.scene.height);
+    }
+};
+
+/// One worker's bands, every row by itself.
+void match_bands(RowWork& work, int worker)
+{
+    const Scene& scene = work.bench.scene;
+    Station& station = work.station(worker);
+    const int rows =
+        work.options.band_rows > 0 ? work.options.band_rows : (scene.height + work.workers - 1) / work.workers;
+    for (int top = worker * rows; top < scene.height; top += work.workers * rows) {
+        station.costs.restart();
+        station.fast.restart();
+        for (int y = top; y < std::min(top + rows, scene.height); ++y) {
+            const AggregatedRow costs = work.options.method == MatchMethod::kFast
+                                            ? station.fast.row(scene, y, station.times, work.hooks.now_ns)
+                                            : station.costs.row(scene, y, station.times, work.hooks.now_ns);
+            const std::uint64_t since = work.clock();
+            if (work.options.method != MatchMethod::kPaper)
+                station.scanline.smooth(scene, y, costs);
+            work.select(y, station, costs);
+            station.times.select += work.clock() - since;
+        }
+    }
+}
+
+/// All workers in step: the costs of a chunk of rows and of those below it, its columns, its rows.
+void match_chunks(RowWork& work, Crew& crew)
+{
+    const Scene& scene = work.bench.scene;
+    ColumnPaths& paths = work.bench.paths;
+    for (int worker = 0; worker < work.workers; ++worker)
+        work.station(worker).costs.restart();
+    int made = 0;
+    for (int chunk = 0; chunk * ColumnPaths::kChunk < scene.height; ++chunk) {
+        const int end = paths.end_of_costs(scene, chunk);
+        crew.run(work.workers, [&](int worker) {
+            Station& station = work.station(worker);
+            for (int y = made + worker; y < end; y += work.workers) {
+                const AggregatedRow costs = station.costs.row(scene, y, station.times, work.hooks.now_ns);
+                std::ranges::copy(costs, paths.costs(scene, y).begin());
+            }
+        });
+        made = end;
+        const auto timed = [&](auto&& step) {
+            crew.run(work.workers, [&](int worker) {
+                const std::uint64_t since = work.clock();
+                step(worker);
+                work.station(worker).times.select += work.clock() - since;
+            });
+        };
+        timed([&](int worker) { paths.walk(scene, chunk, worker, work.workers); });
+        timed([&](int worker) {
+            Station& station = work.station(worker);
+            const int top = chunk * ColumnPaths::kChunk;
+            for (int y = top + worker; y < std::min(top + ColumnPaths::kChunk, scene.height); y += work.workers) {
+                station.scanline.smooth(scene, y, paths.costs(scene, y));
+                paths.join(scene, y);
+                work.select(y, station, paths.costs(scene, y));
+            }
+        });
+    }
 }
 
 } // namespace
@@ -144,8 +250,9 @@ Result<Matcher> Matcher::make(int width, int height, const MatchOptions& options
     lay_out(*bench, own, options, workers);
     fill(bench->lab);
     bench->scene.colour.fill(options.gamma_color);
+    bench->voters.fill(kVotersGamma * options.gamma_color);
     fill_spatial_weights(bench->scene.left_spatial.data(), bench->scene.right_spatial.data(), bench->scene.radius,
-                         options.gamma_space);
+                         options.method == MatchMethod::kFast ? kLineReach * options.gamma_space : options.gamma_space);
     fill_costs(bench->scene.costs, options.cost);
     matcher.bench_ = bench;
     return matcher;
@@ -155,7 +262,8 @@ std::uint64_t Matcher::terms() const
 {
     const matching::Scene& scene = bench_->scene;
     const auto window = static_cast<std::uint64_t>(2 * scene.radius + 1);
-    return window * window * static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height) *
+    const auto cells = options_.method == MatchMethod::kFast ? 2 * window : window * window;
+    return cells * static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height) *
            static_cast<std::uint64_t>(scene.disparities);
 }
 
@@ -166,7 +274,6 @@ MatchOutcome Matcher::match(ImageView<const Rgb8> left, ImageView<const Rgb8> ri
     Bench& bench = *bench_;
     Scene& scene = bench.scene;
     const int workers = static_cast<int>(bench.stations.size());
-    const int band_rows = options_.band_rows > 0 ? options_.band_rows : (scene.height + workers - 1) / workers;
     const auto clock = [&] { return hooks.now_ns ? hooks.now_ns() : 0; };
     const bool check_both_ways = options_.method != MatchMethod::kPaper;
 
@@ -179,37 +286,31 @@ MatchOutcome Matcher::match(ImageView<const Rgb8> left, ImageView<const Rgb8> ri
     });
     const std::uint64_t prepared = clock();
 
-    std::atomic<int> rows_done{0};
-    crew.run(workers, [&](int worker) {
-        Station& station = bench.stations[static_cast<std::size_t>(worker)];
+    for (Station& station : bench.stations)
         station.times = {};
-        for (int top = worker * band_rows; top < scene.height; top += workers * band_rows) {
-            station.costs.restart();
-            for (int y = top; y < std::min(top + band_rows, scene.height); ++y) {
-                const AggregatedRow costs = station.costs.row(scene, y, station.times, hooks.now_ns);
-                const std::uint64_t since = clock();
-                if (check_both_ways)
-                    station.scanline.smooth(scene, y, costs);
-                const auto width = static_cast<std::size_t>(scene.width);
-                SelectedRow row{{bench.maps.disparity.row(y), width},
-                                {bench.maps.confidence.row(y), width},
-                                {bench.maps.verdict.row(y), width}};
-                station.selector.select(scene, costs, check_both_ways, row);
-                station.times.select += clock() - since;
-                const int done = rows_done.fetch_add(1, std::memory_order_relaxed) + 1;
-                if (hooks.rows_done)
-                    hooks.rows_done(hooks.context, done, scene.height);
-            }
-        }
-    });
+    RowWork work{bench, options_, hooks, workers};
+    const bool best = options_.method == MatchMethod::kBest;
+    if (best)
+        match_chunks(work, crew);
+    else
+        crew.run(workers, [&](int worker) { match_bands(work, worker); });
 
     const std::uint64_t matched = clock();
-    if (options_.dense)
-        fill_gaps(bench.maps);
-    else
+    if (best) {
+        drop_clipped(bench.maps, scene.min_disparity);
+        drop_speckles(bench.maps, bench.columns);
+    }
+    if (!options_.dense) {
         drop_unmatched(bench.maps);
-    if (options_.dense && check_both_ways)
-        smooth(bench.maps, scene.left, scene.colour, crew);
+    } else if (best) {
+        take_majorities(bench.maps, scene.disparities, scene.left, bench.voters, crew);
+        fill_along_planes(bench.maps, scene.disparities, scene.left, bench.voters, crew);
+        smooth_evenly(bench.maps, crew);
+    } else {
+        fill_gaps(bench.maps);
+        if (check_both_ways)
+            smooth(bench.maps, scene.left, scene.colour, crew);
+    }
 
     MatchOutcome outcome{};
     outcome.map.relative = bench.maps.disparity;

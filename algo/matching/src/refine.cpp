@@ -1,5 +1,6 @@
 #include "refine.h"
 
+#include "median.h"
 #include "tables.h"
 
 #include <algorithm>
@@ -31,41 +32,6 @@ void fill_row(std::span<DispQ8> disparity, std::span<Verdict> verdict)
         if (nearest == kDispMissing || disparity[x] == kDispMissing)
             verdict[x] = Verdict::kUnseen;
         disparity[x] = std::min(disparity[x], nearest); // kDispMissing is the largest value
-    }
-}
-
-/// Rows without any match copy the nearest row that has one; a map without any is all 0.
-void fill_empty_rows(ImageView<DispQ8> map)
-{
-    const auto copy_from = [&](int from, int to) { std::copy_n(map.row(from), map.width, map.row(to)); };
-    int first = 0;
-    while (first < map.height && map.row(first)[0] == kDispMissing)
-        ++first;
-    if (first == map.height) {
-        for (int y = 0; y < map.height; ++y)
-            std::fill_n(map.row(y), map.width, DispQ8{0});
-        return;
-    }
-    for (int y = first; y-- > 0;)
-        copy_from(first, y);
-    for (int y = first + 1; y < map.height; ++y)
-        if (map.row(y)[0] == kDispMissing)
-            copy_from(y - 1, y);
-}
-
-template <unsigned kRadiusU>
-void median_row(ImageView<const DispQ8> from, int y, DispQ8* to)
-{
-    constexpr int kRadius = kRadiusU;
-    std::array<DispQ8, (2 * kRadiusU + 1) * (2 * kRadiusU + 1)> values{};
-    for (int x = 0; x < from.width; ++x) {
-        std::size_t count = 0;
-        for (int ny = std::max(y - kRadius, 0); ny <= std::min(y + kRadius, from.height - 1); ++ny)
-            for (int nx = std::max(x - kRadius, 0); nx <= std::min(x + kRadius, from.width - 1); ++nx)
-                values[count++] = from.row(ny)[nx];
-        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(count / 2);
-        std::nth_element(values.begin(), middle, values.begin() + static_cast<std::ptrdiff_t>(count));
-        to[x] = *middle;
     }
 }
 
@@ -101,6 +67,24 @@ DispQ8 weighted_median(ImageView<const DispQ8> map, const Maps& maps, const Plan
 
 } // namespace
 
+void fill_empty_rows(ImageView<DispQ8> map)
+{
+    const auto copy_from = [&](int from, int to) { std::copy_n(map.row(from), map.width, map.row(to)); };
+    int first = 0;
+    while (first < map.height && map.row(first)[0] == kDispMissing)
+        ++first;
+    if (first == map.height) {
+        for (int y = 0; y < map.height; ++y)
+            std::fill_n(map.row(y), map.width, DispQ8{0});
+        return;
+    }
+    for (int y = first; y-- > 0;)
+        copy_from(first, y);
+    for (int y = first + 1; y < map.height; ++y)
+        if (map.row(y)[0] == kDispMissing)
+            copy_from(y - 1, y);
+}
+
 void drop_unmatched(const Maps& maps)
 {
     for (int y = 0; y < maps.disparity.height; ++y) {
@@ -123,6 +107,13 @@ void fill_gaps(const Maps& maps)
                 maps.confidence.row(y)[x] = 0;
     }
     fill_empty_rows(maps.disparity);
+}
+
+void smooth_evenly(const Maps& maps, Crew& crew)
+{
+    crew.run(maps.disparity.height, [&](int y) { median_row<1>(maps.disparity, y, maps.scratch.row(y)); });
+    crew.run(maps.disparity.height,
+             [&](int y) { std::copy_n(maps.scratch.row(y), maps.disparity.width, maps.disparity.row(y)); });
 }
 
 void smooth(const Maps& maps, const Planes& left, const ColourWeights& weights, Crew& crew)

@@ -22,11 +22,17 @@ struct Maps
 /// Takes away what failed a check.
 void drop_unmatched(const Maps& maps);
 
+/// Rows without any value copy the nearest row that has one; a map without any is all 0. A row has all values or none.
+void fill_empty_rows(ImageView<DispQ8> map);
+
 /// Gives every pixel a value: rows are filled from the smaller of the two nearest matched neighbours (the farther
 /// surface, which is the one that is hidden). A filled pixel has confidence 0.
 void fill_gaps(const Maps& maps);
 
 /// Medians after filling: 5 x 5 for what was matched, colour-weighted for what was filled.
 void smooth(const Maps& maps, const Planes& left, const ColourWeights& weights, Crew& crew);
+
+/// The 3 x 3 median of all values.
+void smooth_evenly(const Maps& maps, Crew& crew);
 
 } // namespace dicot::matching

@@ -6,8 +6,8 @@
 namespace dicot::matching {
 
 /// Scanline optimisation (Hirschmueller 2008, eq. 13, along the row only, both ways): a change of one pixel of
-/// disparity between neighbours costs kSmallStep, a larger one kLargeStep, both an eighth of it across a colour edge.
-/// One direction is kept while the other runs back over it, so it needs one more row of costs and no volume.
+/// disparity between neighbours costs a small step, a larger one a large step, both an eighth of it across a colour
+/// edge. One direction is kept while the other runs back over it, so it needs one more row of costs and no volume.
 class ScanlinePass
 {
 public:
@@ -18,7 +18,7 @@ public:
 
 private:
     std::span<std::uint16_t> forward_; ///< [width][axis]
-    std::span<std::uint16_t> state_;   ///< [2][axis + 2]: the path behind and the path being made, with a border
+    std::span<std::uint16_t> state_;   ///< [3][axis]: where paths begin, the path behind, and the one being made
 };
 
 } // namespace dicot::matching

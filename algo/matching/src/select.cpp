@@ -9,30 +9,6 @@ namespace {
 /// A checked winner must beat its best rival by this part of 255 of the rival's cost.
 constexpr int kLeastConfidence = 10;
 
-struct Winner
-{
-    int disparity = -1;
-    int cost = kNoCandidate;
-    int runner_up = kNoCandidate; ///< the least cost that is not next to the winner's
-};
-
-/// costs[r], r = axis - 1 - d; the smallest disparity wins a tie.
-Winner winner_of(const std::uint16_t* costs, int axis, int disparities)
-{
-    Winner winner;
-    for (int d = 0; d < disparities; ++d) {
-        const int cost = costs[axis - 1 - d];
-        if (cost < winner.cost) {
-            winner.cost = cost;
-            winner.disparity = d;
-        }
-    }
-    for (int d = 0; d < disparities; ++d)
-        if (std::abs(d - winner.disparity) > 1)
-            winner.runner_up = std::min<int>(winner.runner_up, costs[axis - 1 - d]);
-    return winner;
-}
-
 /// Eq. 15: the vertex of the parabola through three costs, in 1/256 px from the middle one, rounded half up.
 int vertex_q8(int before, int at, int after)
 {
@@ -50,44 +26,29 @@ int vertex_q8(int before, int at, int after)
 void Selector::lay_out(Arena& arena, const Scene& scene)
 {
     const auto length = static_cast<std::size_t>(scene.width + scene.axis - 1);
+    winners_ = arena.take<Winner>(static_cast<std::size_t>(scene.width));
     right_cost_ = arena.take<std::uint16_t>(length);
-    right_winner_ = arena.take<std::uint8_t>(length);
-}
-
-void Selector::right_winners(const Scene& scene, AggregatedRow costs)
-{
-    std::fill(right_cost_.begin(), right_cost_.end(), kNoCandidate);
-    std::fill(right_winner_.begin(), right_winner_.end(), std::uint8_t{0});
-    // Partner column x - d of the search frame is entry x + r: E(p, p_d) is the same number seen from either picture.
-    for (int x = 0; x < scene.width; ++x) {
-        const std::uint16_t* at = costs.data() + static_cast<std::size_t>(x) * static_cast<std::size_t>(scene.axis);
-        for (int r = scene.axis - scene.disparities; r < scene.axis; ++r) {
-            const auto entry = static_cast<std::size_t>(x + r);
-            // Seen from a fixed partner, x grows with d: strictly less keeps the smallest disparity.
-            if (at[r] < right_cost_[entry]) {
-                right_cost_[entry] = at[r];
-                right_winner_[entry] = static_cast<std::uint8_t>(scene.axis - 1 - r);
-            }
-        }
-    }
+    right_position_ = arena.take<std::uint16_t>(length);
 }
 
 void Selector::select(const Scene& scene, AggregatedRow costs, bool check, SelectedRow& to)
 {
+    scene.kernels->winners(winners_.data(), costs.data(), scene.width, scene.axis);
+    // Partner column x - d of the search frame is entry x + r: E(p, p_d) is the same number seen from either picture.
     if (check)
-        right_winners(scene, costs);
+        scene.kernels->right_winners(right_cost_.data(), right_position_.data(), costs.data(), scene.width, scene.axis);
     for (int x = 0; x < scene.width; ++x) {
         const auto i = static_cast<std::size_t>(x);
-        const std::uint16_t* at = costs.data() + i * static_cast<std::size_t>(scene.axis);
-        const Winner winner = winner_of(at, scene.axis, scene.disparities);
-        if (winner.disparity < 0) {
+        const Winner& winner = winners_[i];
+        if (winner.cost == kNoCandidate) {
             to.disparity[i] = kDispMissing;
             to.confidence[i] = 0;
             to.verdict[i] = Verdict::kUnseen;
             continue;
         }
-        const int d = winner.disparity;
-        const int r = scene.axis - 1 - d;
+        const std::uint16_t* at = costs.data() + i * static_cast<std::size_t>(scene.axis);
+        const int r = winner.position;
+        const int d = scene.axis - 1 - r;
         int offset = 0;
         if (d > 0 && d + 1 < scene.disparities && at[r + 1] != kNoCandidate && at[r - 1] != kNoCandidate)
             offset = vertex_q8(at[r + 1], at[r], at[r - 1]);
@@ -97,8 +58,8 @@ void Selector::select(const Scene& scene, AggregatedRow costs, bool check, Selec
         const int rival = winner.runner_up == kNoCandidate ? winner.cost : winner.runner_up;
         to.confidence[i] = static_cast<std::uint8_t>(rival > 0 ? (rival - winner.cost) * 255 / rival : 0);
 
-        const bool agreed = !check || (std::abs(right_winner_[i + static_cast<std::size_t>(r)] - d) <= 1 &&
-                                       to.confidence[i] >= kLeastConfidence);
+        const bool agreed =
+            !check || (std::abs(right_position_[i + winner.position] - r) <= 1 && to.confidence[i] >= kLeastConfidence);
         to.verdict[i] = agreed ? Verdict::kMatched : Verdict::kMismatched;
     }
 }

@@ -13,6 +13,7 @@ enum class Verdict : std::uint8_t
 {
     kUnseen,     ///< no partner inside the right picture, or nothing matched on one side of it in its row
     kMismatched, ///< the right picture's winner disagrees, or a rival is as good
+    kVoted,      ///< most of its neighbours have this disparity
     kMatched
 };
 
@@ -24,7 +25,7 @@ struct SelectedRow
     std::span<Verdict> verdict;
 };
 
-/// Scratch of one worker: the winners of the right picture along a row of the search frame.
+/// Scratch of one worker: the winners of a row, seen from the left picture and from the right one.
 class Selector
 {
 public:
@@ -34,10 +35,9 @@ public:
     void select(const Scene& scene, AggregatedRow costs, bool check, SelectedRow& to);
 
 private:
-    void right_winners(const Scene& scene, AggregatedRow costs);
-
+    std::span<Winner> winners_;
     std::span<std::uint16_t> right_cost_; ///< [width + axis - 1], from column -(axis - 1) of the search frame
-    std::span<std::uint8_t> right_winner_;
+    std::span<std::uint16_t> right_position_;
 };
 
 } // namespace dicot::matching

@@ -73,6 +73,10 @@ svg.shared { position: absolute; width: 0; height: 0; }
 .axis { fill: none; stroke: var(--quiet); }
 .mark { fill: none; stroke: var(--mark); stroke-width: 1.5; stroke-dasharray: 5 4; }
 .tick { stroke: var(--ink); stroke-width: 2; }
+.band { fill: var(--leaf); fill-opacity: 0.11; }
+.trace { fill: none; stroke: var(--eye, var(--leaf)); stroke-width: 2; stroke-linejoin: round; }
+.dots.trace { stroke-width: 8; stroke-opacity: 1; stroke-linecap: round; }
+.reach { fill: none; stroke: var(--eye, var(--leaf)); stroke-width: 1.5; }
 .bar { fill: var(--leaf); } .bar.left { fill: var(--left); } .bar.right { fill: var(--right); }
 .bar.dropped { fill: none; stroke: var(--eye); stroke-width: 1.5; stroke-dasharray: 3 2; }
 .label { fill: var(--quiet); } .middle { text-anchor: middle; } .end { text-anchor: end; }

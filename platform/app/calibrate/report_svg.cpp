@@ -1,5 +1,6 @@
 #include "report_svg.h"
 
+#include "report_shapes.h"
 #include "report_text.h"
 
 #include <algorithm>
@@ -11,65 +12,9 @@ namespace {
 using calibration::kCoverageCols;
 using calibration::kCoverageRows;
 using calibration::kDistanceBins;
-
-std::string at(double value)
-{
-    return fixed(value, 1);
-}
-
-std::string begin(double width, double height, const std::string& label)
-{
-    return fill(R"(<svg viewBox="0 0 {} {}" role="img" aria-label="{}">)", {at(width), at(height), escaped(label)});
-}
-
-std::string words(double x, double y, const char* kind, const std::string& text)
-{
-    return fill(R"(<text x="{}" y="{}" class="{}">{}</text>)", {at(x), at(y), kind, text});
-}
-
-std::string line(double x0, double y0, double x1, double y1, const char* kind)
-{
-    return fill(R"(<path class="{}" d="M{} {}L{} {}"/>)", {kind, at(x0), at(y0), at(x1), at(y1)});
-}
-
-std::string box(double x, double y, double width, double height, const char* kind, const std::string& title = "")
-{
-    return fill(R"(<rect class="{}" x="{}" y="{}" width="{}" height="{}">{}</rect>)",
-                {kind, at(x), at(y), at(width), at(height), title.empty() ? "" : "<title>" + title + "</title>"});
-}
-
-/// A dot each, as strokes without length.
-class Dots
-{
-public:
-    void add(double x, double y) { path_ += fill("M{} {}h0", {at(x), at(y)}); }
-    std::string drawn(const char* kind) const
-    {
-        return path_.empty() ? "" : fill(R"(<path class="{}" d="{}"/>)", {kind, path_});
-    }
-
-private:
-    std::string path_;
-};
-
-/// With as many decimals as a mark of a scale (1, 2, 2.5 or 5 times a power of ten) needs.
-std::string mark_of(double value)
-{
-    int decimals = 0;
-    for (double size = value; decimals < 6 && std::abs(size - std::floor(size + 0.5)) > 1e-6; size *= 10)
-        ++decimals;
-    return fixed(value, decimals);
-}
+using namespace svg;
 
 } // namespace
-
-double round_up(double value)
-{
-    double step = 1e-6;
-    while (5 * step < value)
-        step *= 10;
-    return value <= step ? step : value <= 2 * step ? 2 * step : 5 * step;
-}
 
 std::string shared_drawings()
 {

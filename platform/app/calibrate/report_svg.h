@@ -33,7 +33,4 @@ std::string pair_bars(const CalibrationRun& run);
 /// How often which gap between the rows occurs.
 std::string gap_histogram(const RowGaps& gaps);
 
-/// 1, 2 or 5 times a power of ten, the least that is not below `value` > 0.
-double round_up(double value);
-
 } // namespace dicot::app

@@ -23,6 +23,9 @@ extern const KernelProof kSupportWeightsProof;
 extern const KernelProof kMatchCostProof;
 extern const KernelProof kAggregateProof;
 extern const KernelProof kNormaliseProof;
+extern const KernelProof kPathStepProof;
+extern const KernelProof kWinnersProof;
+extern const KernelProof kRightWinnersProof;
 extern const KernelProof kRemapProof;
 
 } // namespace dicot::proof

@@ -9,8 +9,8 @@
 namespace dicot::proof {
 namespace {
 
-constexpr std::array kProofs = {&kSupportWeightsProof, &kMatchCostProof, &kAggregateProof, &kNormaliseProof,
-                                &kRemapProof};
+constexpr std::array kProofs = {&kSupportWeightsProof, &kMatchCostProof, &kAggregateProof,    &kNormaliseProof,
+                                &kPathStepProof,       &kWinnersProof,   &kRightWinnersProof, &kRemapProof};
 
 Verdict& begin_verdict(Report& report, const Kernels& kernels, const KernelProof& proof)
 {

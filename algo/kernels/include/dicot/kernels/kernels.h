@@ -77,6 +77,28 @@ struct CostRow
     const std::uint8_t* census;
 };
 
+/// Marks a disparity whose partner lies outside the right picture, among aggregated costs.
+inline constexpr std::uint16_t kNoCandidate = 0xFFFF;
+/// The largest aggregated cost.
+inline constexpr int kWorstCost = 256 * kCostMax;
+/// A path may cost one large step more than a cost, and stays below kNoCandidate.
+inline constexpr int kMaxPathStep = kNoCandidate - 1 - kWorstCost;
+
+/// What a path pays when the disparity changes between neighbours.
+struct PathPenalty
+{
+    std::uint16_t small; ///< by one, at most `large`
+    std::uint16_t large; ///< by more, at most kMaxPathStep
+};
+
+/// The best of one pixel's costs.
+struct Winner
+{
+    std::uint16_t position;  ///< the largest that has the least cost
+    std::uint16_t cost;      ///< kNoCandidate: no candidate at all
+    std::uint16_t runner_up; ///< the least cost that is neither at `position` nor beside it; kNoCandidate without one
+};
+
 /// One group of two window rows, for a strip of pixels.
 struct AggregateStrip
 {
@@ -144,6 +166,25 @@ struct Kernels
     /// numerator[i] <= kCostMax * denominator[i], so out[i] <= 256 * kCostMax.
     void (*normalise)(std::uint16_t* out, const std::uint32_t* numerator, const std::uint32_t* denominator, int n);
 
+    /// One step of a path over aggregated costs (Hirschmueller 2008, eq. 13), from a pixel to its neighbour. For position
+    /// r of `first` .. axis - 1
+    ///   own      = min(costs[r], the largest of costs[first ..] that is not kNoCandidate, or 0 where all are)
+    ///   ahead[r] = own + min(behind[r], behind[r - 1] + small, behind[r + 1] + small, least + large) - least
+    /// where nothing lies before `first` and after axis - 1, and ahead[r] = kNoCandidate for r below `first`. Returns the
+    /// least of `ahead`. Domain: costs at most kWorstCost, or kNoCandidate; behind[r] = kNoCandidate for r below `first`,
+    /// which is 0 .. kLanes - 1; `least`, at most kWorstCost, is the least of `behind`; `axis` is a multiple of kLanes.
+    std::uint16_t (*path_step)(std::uint16_t* ahead, const std::uint16_t* costs, const std::uint16_t* behind,
+                               std::uint16_t least, PathPenalty penalty, int first, int axis);
+
+    /// Eq. 14 for `n` pixels of `axis` costs each, a multiple of kLanes.
+    void (*winners)(Winner* out, const std::uint16_t* costs, int n, int axis);
+
+    /// Eq. 14 seen from the right picture: for entry j of n + axis - 1
+    ///   cost[j]     = the least of costs[i * axis + r] with i + r = j, i of 0 .. n - 1, r of 0 .. axis - 1
+    ///   position[j] = the largest such r, or 0 where cost[j] = kNoCandidate
+    /// `axis` is a multiple of kLanes; n may be 0, and then nothing is written.
+    void (*right_winners)(std::uint16_t* cost, std::uint16_t* position, const std::uint16_t* costs, int n, int axis);
+
     /// One row of a rectified colour picture: `n` pixels, 3 bytes each, in cells of 2^cell_log2 px (cell_log2 is 2 or
     /// 3). With (x, y) as RemapSpan says (|x|, |y| < 2^31 - 2^8 for every pixel of a cell that is begun),
     ///   X = (x + 2^8) >> 9, Y alike: px with kRemapWeightBits fraction bits
@@ -152,7 +193,7 @@ struct Kernels
     /// of the four source pixels around; it is 0 where X or Y is below 0 or above 128 (side - 1).
     void (*remap_row)(std::uint8_t* rgb, int n, const RemapSpan* spans, int cell_log2, const RemapSource& source);
 };
-static_assert(256 * kCostMax < 0xFFFF, "0xFFFF is free to mean: no candidate");
+static_assert(kMaxPathStep > 0, "0xFFFF is free to mean: no candidate");
 
 /// The instruction sets that there are kernels for.
 enum class CpuLevel

@@ -15,7 +15,7 @@ namespace dicot {
 enum class MatchMethod
 {
     kPaper,    ///< equations 6 to 15 and nothing else
-    kFast,     ///< a part of the time of kStandard
+    kFast,     ///< kStandard with the window's square taken as rows and a column: a part of the time
     kStandard, ///< the paper's, and a left-right check; with `dense`, filling and medians
     kBest,     ///< what accuracy twice the time of kStandard buys
 };
@@ -87,7 +87,8 @@ public:
                        const MatchHooks& hooks = {});
 
     const MatchOptions& options() const { return options_; }
-    /// Products of eq. 13 that one match computes: window pixels x pixels x disparities.
+    /// Products of eq. 13 that one match computes: window pixels (kFast: of a row and a
+    /// column) x pixels x disparities.
     std::uint64_t terms() const;
 
 private:

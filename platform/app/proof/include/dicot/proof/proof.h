@@ -33,7 +33,7 @@ struct Verdict
 class Report
 {
 public:
-    static constexpr int kMost = 16;
+    static constexpr int kMost = 24;
 
     explicit Report(std::uint64_t seed) : seed_(seed) {}
 
@@ -41,7 +41,7 @@ public:
     std::span<const Verdict> verdicts() const { return {verdicts_.data(), count_}; }
     /// At least one verdict, and every one proven.
     bool passed() const;
-    /// The next verdict to fill. There are never more than kMost: five kernels a level.
+    /// The next verdict to fill. There are never more than kMost: a program has the law and at most one level more.
     Verdict& add() { return verdicts_.at(count_++); }
 
 private:

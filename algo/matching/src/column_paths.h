@@ -1,0 +1,38 @@
+// Semi-global paths up and down the columns, without a volume: a few rows of costs at a time.
+#pragma once
+
+#include "cost_rows.h"
+#include "dicot/base/arena.h"
+
+#include <span>
+
+namespace dicot::matching {
+
+/// Rows come in chunks that the picture alone decides. The path downwards is carried from chunk to chunk; the path
+/// upwards begins kAhead rows below each chunk, from where on it has forgotten where it began.
+class ColumnPaths
+{
+public:
+    static constexpr int kChunk = 8; ///< rows
+    static constexpr int kAhead = 8; ///< rows
+
+    void lay_out(Arena& arena, const Scene& scene, int workers);
+
+    /// Where the costs of row y belong, [width][axis]. All rows up to `end_of_costs` must be there before `walk`.
+    std::span<std::uint16_t> costs(const Scene& scene, int y);
+    int end_of_costs(const Scene& scene, int chunk) const;
+
+    /// Walks the columns of worker `worker` of `workers`; chunks from top to bottom.
+    void walk(const Scene& scene, int chunk, int worker, int workers);
+    /// Replaces the costs of row y of the chunk, which hold the mean of the paths along the row, by the mean of all.
+    void join(const Scene& scene, int y);
+
+private:
+    std::span<std::uint16_t> ring_;    ///< [kChunk + kAhead][width][axis]
+    std::span<std::uint16_t> paths_;   ///< [kChunk][width][axis]: the mean of both directions
+    std::span<std::uint16_t> behind_;  ///< [width][axis]: the path downwards where the last chunk ended
+    std::span<std::uint16_t> least_;   ///< [width]
+    std::span<std::uint16_t> scratch_; ///< [workers][3][axis]
+};
+
+} // namespace dicot::matching

@@ -1,0 +1,47 @@
+// A second, narrow window over the costs that the wide one reads.
+#pragma once
+
+#include "dicot/base/arena.h"
+#include "dicot/kernels/kernels.h"
+
+#include <span>
+
+namespace dicot::matching {
+
+struct Scene;
+
+/// Raw costs of the rows around the one being matched: row y of the picture in slot y mod (2 groups).
+struct CostRing
+{
+    const PairU16* costs; ///< [groups][width][axis]; pixel x is column `margin` + x
+    int groups;
+    int width;
+    int margin;
+};
+
+/// Eq. 13 over a window of 7 x 7 px. On a surface that slants the wide window mixes disparities and prefers
+/// whole ones; a narrow one does less of it, and sees leaves that are thinner than the wide one.
+class NearWindow
+{
+public:
+    static constexpr int kRadius = 3; ///< px
+    /// Pixels whose support weights are held at a time: long enough to spread the cost of moving the right table on,
+    /// short enough for a group's tables and costs to stay in a 48 KiB first-level cache.
+    static constexpr int kStrip = 32;
+
+    /// Fills its spatial weights unless `arena` only counts.
+    void lay_out(Arena& arena, const Scene& scene);
+
+    /// Adds the sums of pixels x0 .. x0 + count - 1 of row y, count at most kStrip, to [count][axis]. Strips of a row
+    /// are asked for from left to right, each but the last as long as the strip.
+    void aggregate(const Scene& scene, int y, int x0, int count, const CostRing& ring, std::uint32_t* numerator,
+                   std::uint32_t* denominator);
+
+private:
+    int right_stride_ = 0;
+    std::span<std::uint16_t> left_spatial_, right_spatial_; ///< [window][window]
+    std::span<PairU16> left_;                               ///< [window][strip]
+    std::span<PairU16> right_;                              ///< [groups][window][right_stride]
+};
+
+} // namespace dicot::matching
