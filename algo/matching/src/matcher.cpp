@@ -4,7 +4,6 @@
 #include "row_work.h"
 #include "slants.h"
 #include "speckles.h"
-#include "surfaces.h"
 #include "tables.h"
 #include "votes.h"
 
