@@ -17,8 +17,6 @@ constexpr int kSameSurface = kOnePx;
 constexpr int kSameSurfaceAtFirst = 3 * kOnePx / 2;
 /// A round moves a pixel by no more.
 constexpr int kLongestStep = kOnePx / 2;
-/// What would end farther from the winner, 1/256 px, followed another surface and stays where it was.
-constexpr int kFarthest = 128;
 /// Where the pictures differ by more, 40 grey levels, they do not show the same.
 constexpr int kSameBrightness = 40 << 4;
 constexpr std::int16_t kUnknown = INT16_MIN;
@@ -241,7 +239,7 @@ void SurfaceRefiner::fit_planes(const Scene& scene, Crew& crew, int same_surface
     std::swap(slopes_, next_);
 }
 
-void SurfaceRefiner::refine(const Scene& scene, ImageView<DispQ8> disparity, Crew& crew)
+void SurfaceRefiner::refine(const Scene& scene, ImageView<DispQ8> disparity, int farthest, Crew& crew)
 {
     constexpr int kMoreBits = kSlopeBits - kDispFractionBits;
     crew.run(scene.height, [&](int y) {
@@ -268,7 +266,7 @@ void SurfaceRefiner::refine(const Scene& scene, ImageView<DispQ8> disparity, Cre
                 continue;
             DispQ8& was = disparity.row(y)[x];
             const int is = std::clamp((d + (1 << (kMoreBits - 1))) >> kMoreBits, 0, most);
-            if (std::abs(is - was) <= kFarthest)
+            if (std::abs(is - was) <= farthest)
                 was = static_cast<DispQ8>(is);
         }
     });

@@ -34,8 +34,9 @@ public:
     /// Memory for pictures of the scene's size. What it holds lives only during refine().
     void lay_out(Arena& arena, const Scene& scene);
 
-    /// Moves every disparity that is not missing; which are missing stays.
-    void refine(const Scene& scene, ImageView<DispQ8> disparity, Crew& crew);
+    /// Moves every disparity that is not missing; which are missing stays. What would end farther than `farthest`, in
+    /// 1/256 px, from where it was has followed another surface and stays too.
+    void refine(const Scene& scene, ImageView<DispQ8> disparity, int farthest, Crew& crew);
 
 private:
     void read_brightness(const Scene& scene, Crew& crew);
