@@ -17,7 +17,7 @@
 namespace dicot::app {
 namespace {
 
-constexpr const char* kAbout =
+constexpr const char* kAboutAccuracy =
     "Photograph a flat, textured target (a box with printed paper) at several known distances, parallel to the "
     "left picture. A distance is measured in mm from the left camera's projection centre, along its optical axis.\n\n"
     "What DIR holds:\n"
@@ -34,7 +34,7 @@ constexpr const char* kAbout =
     "Reported for each target: the median depth over it, its error, the bound of eq. 21 of the 2017 paper, "
     "Z^2 / (f B) x 0.5 px, within how many mm half and 95 % of its pixels lie, and the share that has a value.";
 
-struct Words
+struct AccuracyWords
 {
     DepthWords depth;
     std::string box, csv, report;
@@ -53,7 +53,7 @@ Result<TargetBox> box_of(const std::string& text)
     return box;
 }
 
-Status run(Words words)
+Status run(AccuracyWords words)
 {
     if (!words.box.empty())
         words.depth.targets.box = TRY(box_of(words.box));
@@ -93,8 +93,8 @@ void add_accuracy(CLI::App& program, Command& chosen)
 {
     CLI::App* command =
         program.add_subcommand("accuracy", "Errors of measured depth from pictures of a target at known distances");
-    command->footer(kAbout);
-    auto words = std::make_shared<Words>();
+    command->footer(kAboutAccuracy);
+    auto words = std::make_shared<AccuracyWords>();
     words->depth.match.method = "best";
     command->add_option("DIR", words->depth.targets.folder, "folder of the pairs, see below")->required();
     command->add_option("--rig", words->depth.rig, "rig file of the two cameras (YAML)")->required();

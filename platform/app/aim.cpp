@@ -8,14 +8,14 @@
 namespace dicot::app {
 namespace {
 
-struct Words
+struct AimWords
 {
     ConfigWords config;
     double seconds = 0;
     bool json = false;
 };
 
-Status run(const Words& words)
+Status run(const AimWords& words)
 {
     const LoadedConfig loaded = TRY(words.config.load());
     return aim(loaded.config, words.seconds, words.json);
@@ -27,7 +27,7 @@ void add_aim(CLI::App& program, Command& chosen)
 {
     CLI::App* command = program.add_subcommand(
         "aim", "Live figures of both cameras, to turn and focus them by: what is wrong, and what to do about it");
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<AimWords>();
     words->config.add_to(*command);
     command->add_option("--seconds", words->seconds, "ends after so long; else with Ctrl-C")
         ->check(CLI::Range(0.1, 1e6));

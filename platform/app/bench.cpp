@@ -18,7 +18,7 @@
 namespace dicot::app {
 namespace {
 
-struct Words
+struct BenchWords
 {
     MatchWords match;
     int width = 640;
@@ -57,7 +57,7 @@ void draw(ImageView<Rgb8> left, ImageView<Rgb8> right)
 }
 
 /// The best of `rounds` runs.
-Result<MatchRun> time_match(const Words& words, const Kernels& kernels, int threads)
+Result<MatchRun> time_match(const BenchWords& words, const Kernels& kernels, int threads)
 {
     MatchBench bench = TRY(MatchBench::make(words.width, words.height, words.match.resolved(), kernels, threads));
     draw(bench.left, bench.right);
@@ -86,7 +86,7 @@ nlohmann::json stages(const MatchTimes& times)
             {"select_s", seconds(times.select)},   {"refine_s", seconds(times.refine)}};
 }
 
-Status run(const Words& words)
+Status run(const BenchWords& words)
 {
     const Kernels* kernels = TRY(choose_kernels(words.match.cpu));
     const double clock_hz = core_clock_hz();
@@ -166,7 +166,7 @@ Status run(const Words& words)
 void add_bench(CLI::App& program, Command& chosen)
 {
     CLI::App* command = program.add_subcommand("bench", "How fast this computer matches, and where the time goes");
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<BenchWords>();
     command->add_option("--width", words->width, "picture width, px")->capture_default_str();
     command->add_option("--height", words->height, "picture height, px")->capture_default_str();
     command->add_option("--disparities", words->match.options.disparities, "width of the search range, px")

@@ -30,7 +30,7 @@
 namespace dicot::app {
 namespace {
 
-struct Words
+struct CalibrateWords
 {
     std::vector<BoardWord> boards; ///< filled from the options below, in their order
     std::vector<std::string> images, corners, squares, square_mm;
@@ -50,7 +50,7 @@ bool takes_tables(const std::string& output)
 }
 
 /// Looks at the outputs before the work.
-Status check(const Words& words, const CalibrationRun& run)
+Status check(const CalibrateWords& words, const CalibrationRun& run)
 {
     for (const SeenPair& pair : run.pairs)
         TRY(check_distinct({pair.left_path, pair.right_path}, {words.output, maps_path(words.output)}));
@@ -78,7 +78,7 @@ bool several_boards(const CalibrationPlan& plan)
 }
 
 /// What a verdict of redo says about the rig file.
-Status refuse_redo(const Words& words, const CalibrationRun& run)
+Status refuse_redo(const CalibrateWords& words, const CalibrationRun& run)
 {
     if (run.quality.verdict != calibration::Verdict::kRedo || words.force)
         return {};
@@ -108,7 +108,7 @@ struct Written
 /// The page first: should that fail, the rig file is still the former one. Its tables last: without them, or with
 /// those of the former rig, they are built when they are needed. A refused run replaces nothing: its page is
 /// written only where none stands.
-Written write_outputs(const Words& words, const CalibrationRun& run, const Status& calibrated)
+Written write_outputs(const CalibrateWords& words, const CalibrationRun& run, const Status& calibrated)
 {
     Written written;
     written.outcome = calibrated.ok() ? refuse_redo(words, run) : calibrated;
@@ -132,7 +132,7 @@ Written write_outputs(const Words& words, const CalibrationRun& run, const Statu
     return written;
 }
 
-Status tell(const Words& words, const CalibrationRun& run, int threads, const Written& written)
+Status tell(const CalibrateWords& words, const CalibrationRun& run, int threads, const Written& written)
 {
     const ProcessMemory memory = TRY(process_memory());
     if (words.json) {
@@ -171,7 +171,7 @@ Status tell(const Words& words, const CalibrationRun& run, int threads, const Wr
 }
 
 /// The outputs are looked at before somebody holds boards for nothing.
-Status take_pairs_first(const Words& words, const CalibrationPlan& plan, Crew& crew)
+Status take_pairs_first(const CalibrateWords& words, const CalibrationPlan& plan, Crew& crew)
 {
     TRY(check_distinct({plan.sets.front().folder}, {words.report}));
     const bool makes_report = !words.report.empty() && !is_there(words.report);
@@ -183,7 +183,7 @@ Status take_pairs_first(const Words& words, const CalibrationPlan& plan, Crew& c
     return outcome;
 }
 
-Status run(const Words& words)
+Status run(const CalibrateWords& words)
 {
     CalibrationPlan plan = words.plan;
     if (!words.live.on)
@@ -214,7 +214,7 @@ Status run(const Words& words)
 void add_calibrate(CLI::App& program, Command& chosen)
 {
     CLI::App* command = program.add_subcommand("calibrate", "Two cameras' geometry from pictures of a chessboard");
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<CalibrateWords>();
     std::map<const CLI::Option*, std::pair<BoardWord::Kind, const std::vector<std::string>*>> ordered;
     const auto add = [&](const char* name, BoardWord::Kind kind, std::vector<std::string>& values, const char* what) {
         constexpr std::array<const char*, 4> kTypes{"DIR", "CxR", "CxR", "MM"};

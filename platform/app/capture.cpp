@@ -26,7 +26,7 @@ namespace {
 
 constexpr int kMostPairs = 999;
 
-struct Words
+struct CaptureWords
 {
     ConfigWords config;
     std::string folder;
@@ -40,7 +40,7 @@ struct PairNames
 };
 
 /// left.png, or left001.png of several.
-PairNames names_of(const Words& words, int pair)
+PairNames names_of(const CaptureWords& words, int pair)
 {
     char number[16] = "";
     if (words.pairs > 1)
@@ -56,7 +56,7 @@ bool is_a_miss(const std::string& path)
     return record.is_object() && record.value("outcome", nlohmann::json()) == "missed";
 }
 
-Status check_folder(const Words& words)
+Status check_folder(const CaptureWords& words)
 {
     TRY(make_folder(words.folder));
     const std::string record = words.folder + "/record.json";
@@ -74,7 +74,7 @@ Status check_folder(const Words& words)
     return {};
 }
 
-Status take_pairs(const Words& words, Shot& shot, MemoryBlock& memory, nlohmann::json& pairs,
+Status take_pairs(const CaptureWords& words, Shot& shot, MemoryBlock& memory, nlohmann::json& pairs,
                   std::vector<std::string>& warnings)
 {
     const int width = shot.rig().width();
@@ -107,7 +107,7 @@ Status take_pairs(const Words& words, Shot& shot, MemoryBlock& memory, nlohmann:
     return shot.end();
 }
 
-Status run(const Words& words)
+Status run(const CaptureWords& words)
 {
     const LoadedConfig loaded = TRY(words.config.load());
     const StopRequest stop;
@@ -148,7 +148,7 @@ Status run(const Words& words)
 void add_capture(CLI::App& program, Command& chosen)
 {
     CLI::App* command = program.add_subcommand("capture", "Pictures from both cameras: the best pair of a burst");
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<CaptureWords>();
     words->config.add_to(*command);
     command->add_option("-o,--output", words->folder, "folder for left and right pictures (PNG) and record.json")
         ->required();

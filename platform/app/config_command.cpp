@@ -11,14 +11,14 @@
 namespace dicot::app {
 namespace {
 
-struct Words
+struct ConfigCommandWords
 {
     ConfigWords config;
     bool json = false;
     bool sample = false;
 };
 
-Status run(const Words& words)
+Status run(const ConfigCommandWords& words)
 {
     if (words.sample) {
         std::fputs(config_sample().c_str(), stdout);
@@ -39,7 +39,7 @@ void add_config(CLI::App& program, Command& chosen)
 {
     CLI::App* command =
         program.add_subcommand("config", "The configuration that holds: each key with unit, default, range and origin");
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<ConfigCommandWords>();
     words->config.add_to(*command);
     CLI::Option* json = command->add_flag("--json", words->json, "report as JSON");
     CLI::Option* sample =

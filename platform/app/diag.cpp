@@ -18,7 +18,7 @@
 namespace dicot::app {
 namespace {
 
-struct Words
+struct DiagWords
 {
     StoreWords store;
     std::string output;
@@ -47,7 +47,7 @@ Status add_told(DiagMembers& members, const std::string& name, std::vector<std::
     return why.empty() ? Status{} : members.put(name + ".remarks.txt", why + "\n");
 }
 
-Status add_commands(DiagMembers& members, const Words& words)
+Status add_commands(DiagMembers& members, const DiagWords& words)
 {
     std::vector<std::string> config;
     if (!words.store.config.file.empty())
@@ -89,7 +89,7 @@ Status add_folder(DiagMembers& members, const std::string& name, const std::stri
     return {};
 }
 
-Status add_files(DiagMembers& members, const Words& words)
+Status add_files(DiagMembers& members, const DiagWords& words)
 {
     const Result<LoadedConfig> loaded = words.store.config.load();
     const std::string file = !words.store.config.file.empty() ? words.store.config.file : kDefaultConfigFile;
@@ -101,7 +101,7 @@ Status add_files(DiagMembers& members, const Words& words)
     return add_folder(members, "state", config.run.state);
 }
 
-Status add_boards(DiagMembers& members, const Words& words)
+Status add_boards(DiagMembers& members, const DiagWords& words)
 {
     const Result<FoundStores> found = words.store.find();
     if (!found.ok())
@@ -113,7 +113,7 @@ Status add_boards(DiagMembers& members, const Words& words)
     return {};
 }
 
-Status run(const Words& words)
+Status run(const DiagWords& words)
 {
     const ClockReading clock = read_clock({});
     TarGz archive;
@@ -138,7 +138,7 @@ void add_diag(CLI::App& program, Command& chosen)
         "diag", "One archive for the engineer: configuration, rig, cameras, memory, schedule, slots, newest records, "
                 "health, system. No pictures. The cameras are asked what they can do: while dicot run uses them, they "
                 "say that they are busy");
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<DiagWords>();
     command->add_option("-o,--output", words->output, "the archive, .tar.gz")->required()->type_name("FILE");
     command->add_option("--records", words->records, "the newest records, so many of each board (default: 20)")
         ->transform(slot_number());

@@ -26,7 +26,7 @@ constexpr const char* kAbout = "A pixel is judged when its truth is known and th
                                "that is k times as large as "
                                "the map is taken at the centres of the map's pixels and divided by k.";
 
-struct Words
+struct EvaluateWords
 {
     std::string map, truth, mask;
     double scale = 1;
@@ -56,7 +56,7 @@ Status check_multiple(const std::string& path, const PictureSize& size, const st
                    path.c_str(), size.width, size.height, map.width, map.height, map_path.c_str());
 }
 
-Result<Inputs> read_inputs(const Words& words)
+Result<Inputs> read_inputs(const EvaluateWords& words)
 {
     const MapHead map = TRY(map_head(words.map.c_str()));
     if (map.kind == MapKind::kPng8)
@@ -87,7 +87,7 @@ Result<Inputs> read_inputs(const Words& words)
     return inputs;
 }
 
-void print_json(const Words& words, const MapJudgement& found)
+void print_json(const EvaluateWords& words, const MapJudgement& found)
 {
     const auto where_valued = [&](double error) { return found.valued > 0 ? nlohmann::json(error) : nlohmann::json(); };
     nlohmann::json bad;
@@ -105,7 +105,7 @@ void print_json(const Words& words, const MapJudgement& found)
     std::printf("%s\n", report.dump(2).c_str());
 }
 
-void print(const Words& words, const MapJudgement& found)
+void print(const EvaluateWords& words, const MapJudgement& found)
 {
     std::printf("%s: %lld pixels judged, %.2f %% of them have a disparity\n", words.map.c_str(),
                 static_cast<long long>(found.judged), 100 * found.density());
@@ -119,7 +119,7 @@ void print(const Words& words, const MapJudgement& found)
         std::printf("mean error %.3f px, RMS error %.3f px\n", found.mean_error_px, found.rms_error_px);
 }
 
-Status run(const Words& words)
+Status run(const EvaluateWords& words)
 {
     const Inputs inputs = TRY(read_inputs(words));
     const MapJudgement found = judge_map(inputs.map, inputs.truth, inputs.mask);
@@ -140,7 +140,7 @@ void add_evaluate(CLI::App& program, Command& chosen)
 {
     CLI::App* command = program.add_subcommand("evaluate", "Error rates of a disparity map against ground truth");
     command->footer(kAbout);
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<EvaluateWords>();
     command->add_option("DISPARITY", words->map, "disparity map: .pfm, or 16-bit .png (px x 256, 0 = missing)")
         ->required();
     command->add_option("GT", words->truth, "ground truth: grey PNG of 8 or 16 bits (0 = unknown), or PFM")->required();

@@ -11,12 +11,12 @@
 namespace dicot::app {
 namespace {
 
-struct Words
+struct ExportWords
 {
     std::string cloud, output;
 };
 
-Status run(const Words& words)
+Status run(const ExportWords& words)
 {
     if (!words.output.ends_with(".ply") && !words.output.ends_with(".pcd"))
         return failure(Fault::kUsage, "%s: the name must end in .ply or .pcd", words.output.c_str());
@@ -31,7 +31,7 @@ Status run(const Words& words)
 void add_export(CLI::App& program, Command& chosen)
 {
     CLI::App* command = program.add_subcommand("export", "A cloud file as .ply or .pcd");
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<ExportWords>();
     command->add_option("CLOUD", words->cloud, "cloud file, .drc")->required();
     command->add_option("-o,--output", words->output, "the file to write: .ply or .pcd")->required();
     command->callback([words, &chosen] { chosen = [words] { return run(*words); }; });

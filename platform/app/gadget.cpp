@@ -12,7 +12,7 @@
 namespace dicot::app {
 namespace {
 
-struct Words
+struct GadgetCommandWords
 {
     ConfigWords config;
     std::string root;
@@ -20,21 +20,21 @@ struct Words
     bool if_wanted = false;
 };
 
-using Work = Status (*)(const ServerWish& wish, const Words& words);
+using Work = Status (*)(const ServerWish& wish, const GadgetCommandWords& words);
 
-Status up(const ServerWish& wish, const Words&)
+Status up(const ServerWish& wish, const GadgetCommandWords&)
 {
     return serve_store(wish);
 }
 
-Status prepare(const ServerWish& wish, const Words& words)
+Status prepare(const ServerWish& wish, const GadgetCommandWords& words)
 {
     if (words.if_wanted && !wish.config->usb.export_store)
         return {};
     return prepare_gadget(wish);
 }
 
-Status down(const ServerWish& wish, const Words&)
+Status down(const ServerWish& wish, const GadgetCommandWords&)
 {
     const TakenDown down = TRY(take_gadget_down(wish.places));
     if (down.server != 0)
@@ -46,7 +46,7 @@ Status down(const ServerWish& wish, const Words&)
     return {};
 }
 
-Status tell(const ServerWish& wish, const Words& words)
+Status tell(const ServerWish& wish, const GadgetCommandWords& words)
 {
     const GadgetStatus status = gadget_status(wish.places, wish.config->usb.udc);
     std::printf("%s%s", words.json ? json_text(gadget_json(status)).c_str() : gadget_text(status).c_str(),
@@ -57,7 +57,7 @@ Status tell(const ServerWish& wish, const Words& words)
     return {};
 }
 
-Status run(const Words& words, Work work)
+Status run(const GadgetCommandWords& words, Work work)
 {
     const LoadedConfig loaded = TRY(words.config.load());
     ServerWish wish;
@@ -67,7 +67,7 @@ Status run(const Words& words, Work work)
 }
 
 /// An offer that nothing can judge is dropped all the same.
-Status take_time(const Words& words)
+Status take_time(const GadgetCommandWords& words)
 {
     const WaitingOffer offer = TRY(take_offer(kClockOfferFile));
     const LoadedConfig loaded = TRY(words.config.load());
@@ -77,13 +77,13 @@ Status take_time(const Words& words)
     return judge_and_set(offer, kClockOfferFile, loaded.config.usb.clock, board_store(wish).path);
 }
 
-void set(CLI::App& command, Command& chosen, const std::shared_ptr<Words>& words, Work work)
+void set(CLI::App& command, Command& chosen, const std::shared_ptr<GadgetCommandWords>& words, Work work)
 {
     words->config.add_to(command);
     command.callback([words, work, &chosen] { chosen = [words, work] { return run(*words, work); }; });
 }
 
-void add_root(CLI::App& command, Words& words)
+void add_root(CLI::App& command, GadgetCommandWords& words)
 {
     command.add_option("-o,--output,--store", words.root, "folder of the store, as for snap (default: output.folder)")
         ->type_name("DIR");
@@ -97,7 +97,7 @@ void add_gadget(CLI::App& program, Command& chosen)
         "gadget",
         "This board as a USB device: a computer that is plugged into it sees the clouds, as those of a camera");
     group->require_subcommand(1);
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<GadgetCommandWords>();
     CLI::App* served = group->add_subcommand(
         "up", "Shows the store to computers, until 'down', SIGTERM or Ctrl-C; by root, or after 'prepare'");
     set(*served, chosen, words, up);

@@ -13,13 +13,13 @@
 namespace dicot::app {
 namespace {
 
-struct Words
+struct HealthWords
 {
     StoreWords store;
     bool json = false;
 };
 
-Status run(const Words& words)
+Status run(const HealthWords& words)
 {
     const FoundStores found = TRY(words.store.find());
     const StoreRules rules = rules_of(found.output);
@@ -57,7 +57,7 @@ void add_health(CLI::App& program, Command& chosen)
     CLI::App* command = program.add_subcommand(
         "health", "How each board is: what is flagged, why, and what to do; what was missed; the trend of two weeks. "
                   "Ends with 0 whatever is flagged: \"state\" in --json tells it to programs");
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<HealthWords>();
     words->store.add_to(*command);
     command->add_flag("--json", words->json, "report as JSON");
     command->callback([words, &chosen] { chosen = [words] { return run(*words); }; });

@@ -15,7 +15,7 @@
 namespace dicot::app {
 namespace {
 
-struct Words
+struct ListWords
 {
     StoreWords store;
     std::string since, until;
@@ -33,7 +33,7 @@ Result<TimeSpan> time_of(const char* word, const std::string& text)
     return *span;
 }
 
-Result<SlotQuery> query_of(const Words& words)
+Result<SlotQuery> query_of(const ListWords& words)
 {
     SlotQuery query;
     if (!words.since.empty())
@@ -93,7 +93,7 @@ Status list_as_json(const DeviceFolder& device, const StoreRules& rules, const S
     return listed.ok() ? all_days_told(device.path) : listed;
 }
 
-Status run(const Words& words)
+Status run(const ListWords& words)
 {
     const SlotQuery query = TRY(query_of(words));
     const FoundStores found = TRY(words.store.find());
@@ -127,7 +127,7 @@ void add_list(CLI::App& program, Command& chosen)
 {
     CLI::App* command = program.add_subcommand(
         "list", "The slots of a store: done, missed and why, pulled when; and what room is left");
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<ListWords>();
     command->add_option("--since", words->since, "from this day or time on, UTC")->type_name("TIME");
     command->add_option("--until", words->until, "to the end of this day or time, UTC")->type_name("TIME");
     command->add_flag("--missed", words->missed, "the missed ones alone");

@@ -22,7 +22,7 @@
 namespace dicot::app {
 namespace {
 
-struct Words
+struct MatchCommandWords
 {
     std::string left, right, output;
     MatchWords match;
@@ -89,7 +89,7 @@ double density(const DisparityMap& map)
     return static_cast<double>(valued) / (static_cast<double>(map.relative.width) * map.relative.height);
 }
 
-Status run(const Words& words)
+Status run(const MatchCommandWords& words)
 {
     const MatchOptions options = words.match.resolved();
     const MapFormat format = TRY(format_of(words.output));
@@ -162,7 +162,7 @@ Status run(const Words& words)
 void add_match(CLI::App& program, Command& chosen)
 {
     CLI::App* command = program.add_subcommand("match", "Disparity map of a rectified stereo pair");
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<MatchCommandWords>();
     command->add_option("LEFT", words->left, "left picture: PNG, JPEG or PPM, rectified")->required();
     command->add_option("RIGHT", words->right, "right picture, of the same size")->required();
     command

@@ -25,8 +25,10 @@ void MatchWords::add_to(CLI::App& command)
 
 void MatchWords::add_all_but_threads_to(CLI::App& command)
 {
-    command.add_option("--method", method, "paper: the published equations alone; standard: checked and refined; "
-                                         "fast: a part of its time; best: twice its time")
+    command
+        .add_option("--method", method,
+                    "paper: the published equations alone; standard: checked and refined; "
+                    "fast: a part of its time; best: twice its time")
         ->check(CLI::IsMember({"paper", "fast", "standard", "best"}))
         ->capture_default_str();
     command.add_option("--cost", cost, "matching cost: AD-Census, or truncated absolute differences")

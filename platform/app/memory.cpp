@@ -35,7 +35,7 @@ std::size_t uvc_camera_bytes(int width, int height)
     return static_cast<std::size_t>(UvcOptions{}.slots) * frame_bytes({PixelFormat::kYuyv, width, height, 0});
 }
 
-struct Words
+struct MemoryWords
 {
     MatchWords match;
     ConfigWords config;
@@ -81,7 +81,7 @@ nlohmann::json json_of(const SnapshotBench& bench, const RunBudget& budget)
 }
 
 /// Of one configuration, with its rig file, and its recorded pictures or the cameras that are plugged in.
-Status run_of_config(const Words& words)
+Status run_of_config(const MemoryWords& words)
 {
     RunMemory::keep_address_space_known();
     const LoadedConfig loaded = TRY(words.config.load());
@@ -96,7 +96,7 @@ Status run_of_config(const Words& words)
     return {};
 }
 
-Status run(const Words& words)
+Status run(const MemoryWords& words)
 {
     const int threads = words.match.resolved_threads();
     const MatchOptions options = words.match.resolved();
@@ -148,7 +148,7 @@ Status run(const Words& words)
 void add_memory(CLI::App& program, Command& chosen)
 {
     CLI::App* command = program.add_subcommand("memory", "Memory that a configuration takes");
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<MemoryWords>();
     words->config.add_to(*command);
     command->add_option("--width", words->width, "picture width, px")->capture_default_str();
     command->add_option("--height", words->height, "picture height, px")->capture_default_str();

@@ -18,7 +18,7 @@
 namespace dicot::app {
 namespace {
 
-struct Words
+struct ProcessWords
 {
     std::string left, right, cloud, ply;
     PictureNames pictures;
@@ -36,7 +36,7 @@ Status check_output(const std::string& path, const char* ending)
     return can_be_written.open(path.c_str());
 }
 
-Status check_outputs(const Words& words)
+Status check_outputs(const ProcessWords& words)
 {
     TRY(check_distinct({words.left, words.right, words.work.rig},
                        {words.cloud, words.ply, words.pictures.preview, words.pictures.disparity}));
@@ -50,7 +50,7 @@ Status check_outputs(const Words& words)
 class PairFiles final : public PairSource
 {
 public:
-    explicit PairFiles(const Words& words) : words_(words) {}
+    explicit PairFiles(const ProcessWords& words) : words_(words) {}
 
     Result<PictureSize> size() const
     {
@@ -70,10 +70,10 @@ public:
     }
 
 private:
-    const Words& words_;
+    const ProcessWords& words_;
 };
 
-Status run(const Words& words)
+Status run(const ProcessWords& words)
 {
     TRY(check_outputs(words));
     PairFiles files(words);
@@ -106,7 +106,7 @@ Status run(const Words& words)
 void add_process(CLI::App& program, Command& chosen)
 {
     CLI::App* command = program.add_subcommand("process", "Compressed 3D cloud of a stereo pair");
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<ProcessWords>();
     command
         ->add_option("LEFT", words->left,
                      "left picture: PNG, JPEG or PPM; rectified when the rig file has P1 and P2 only")

@@ -17,7 +17,7 @@
 namespace dicot::app {
 namespace {
 
-struct Words
+struct PruneWords
 {
     StoreWords store;
     std::optional<double> older_than_days;
@@ -61,7 +61,7 @@ Result<std::uint64_t> missing_bytes(Medium& medium, const StoreRules& rules, std
 }
 
 /// What went until a failure stays in `pruned`.
-Status prune(const Words& words, const DeviceFolder& device, const StoreRules& rules, Pruned& pruned)
+Status prune(const PruneWords& words, const DeviceFolder& device, const StoreRules& rules, Pruned& pruned)
 {
     const WrittenStore store = TRY(WrittenStore::open(device.path, rules));
     pruned.start = store.store->start_report();
@@ -105,7 +105,7 @@ nlohmann::json json_of(const DeviceFolder& device, const Pruned& pruned, const S
     return told;
 }
 
-Status run(const Words& words)
+Status run(const PruneWords& words)
 {
     if (words.older_than_days && !is_age(*words.older_than_days))
         return failure(Fault::kUsage, "--older-than is %g: give days, more than 0 and at most %.0f",
@@ -142,7 +142,7 @@ void add_prune(CLI::App& program, Command& chosen)
 {
     CLI::App* command = program.add_subcommand(
         "prune", "Deletes the oldest snapshots until output.reserve_mib is free, of those that output.prune allows");
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<PruneWords>();
     command->add_flag("--dry-run", words->dry_run, "only says what would go");
     command->add_option("--older-than", words->older_than_days, "and all of them that are older than so many days")
         ->type_name("DAYS");

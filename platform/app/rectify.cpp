@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kLineStep = 32; // px between the lines of the proof
 
-struct Words
+struct RectifyWords
 {
     std::string left, right, rig, folder;
     std::string cpu = "auto";
@@ -67,7 +67,7 @@ void draw_proof(ImageView<const Rgb8> left, ImageView<const Rgb8> right, ImageVi
     }
 }
 
-Status run(const Words& words)
+Status run(const RectifyWords& words)
 {
     const Kernels* kernels = TRY(choose_kernels(words.cpu));
     const std::string at = words.folder + "/";
@@ -138,7 +138,7 @@ Status run(const Words& words)
 void add_rectify(CLI::App& program, Command& chosen)
 {
     CLI::App* command = program.add_subcommand("rectify", "A stereo pair with parallel rows");
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<RectifyWords>();
     command->add_option("LEFT", words->left, "left picture as the camera gave it: PNG, JPEG or PPM")->required();
     command->add_option("RIGHT", words->right, "right picture")->required();
     command->add_option("--rig", words->rig, "rig file of the two cameras (YAML)")->required();

@@ -15,7 +15,7 @@
 namespace dicot::app {
 namespace {
 
-struct Words
+struct RigConvertWords
 {
     std::string rig, ros, opencv, size;
     double mm_per_unit = 0;
@@ -23,7 +23,7 @@ struct Words
 };
 
 /// "640x480"
-Result<RigHints> hints_of(const Words& words)
+Result<RigHints> hints_of(const RigConvertWords& words)
 {
     RigHints hints;
     const char* const end = words.size.data() + words.size.size();
@@ -45,7 +45,7 @@ Result<RigHints> hints_of(const Words& words)
     return hints;
 }
 
-Status convert(const Words& words)
+Status convert(const RigConvertWords& words)
 {
     if (words.ros.empty() && words.opencv.empty())
         return failure(Fault::kUsage, "rig convert: say what to write: --ros FOLDER or --opencv FILE");
@@ -75,7 +75,7 @@ Status convert(const Words& words)
 
 void add_rig_convert(CLI::App& rig, Command& chosen)
 {
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<RigConvertWords>();
     CLI::App* command = rig.add_subcommand("convert", "Write it for ROS or OpenCV");
     command->add_option("RIG", words->rig, kRigSourceWords)->required();
     command->add_option("--ros", words->ros, "folder for left.yaml and right.yaml");

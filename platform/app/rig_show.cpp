@@ -13,7 +13,7 @@
 namespace dicot::app {
 namespace {
 
-struct Words
+struct RigShowWords
 {
     std::string rig;
     bool json = false;
@@ -87,7 +87,7 @@ nlohmann::json as_json(const RigFile& rig, const RigGeometry* geometry)
     return report;
 }
 
-Status show(const Words& words)
+Status show(const RigShowWords& words)
 {
     RigFile rig = TRY(read_whole_rig(words.rig));
     if (describes_cameras(rig)) { // what dicot makes of them, whatever R1 R2 P1 P2 in the file are
@@ -134,7 +134,7 @@ Status show(const Words& words)
 
 void add_rig_show(CLI::App& rig, Command& chosen)
 {
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<RigShowWords>();
     CLI::App* command = rig.add_subcommand("show", "Print it");
     command->add_option("RIG", words->rig, kRigSourceWords)->required();
     command->add_flag("--json", words->json, "report as JSON");

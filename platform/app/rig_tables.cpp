@@ -12,7 +12,7 @@
 namespace dicot::app {
 namespace {
 
-struct Words
+struct RigTablesWords
 {
     std::string rig, output;
     double keep = kCrop;
@@ -28,7 +28,7 @@ nlohmann::json as_json(const RemapTable& table, std::uint32_t checksum)
             {"crc32", checksum}};
 }
 
-Status run(const Words& words)
+Status run(const RigTablesWords& words)
 {
     const std::string path = words.output.empty() ? maps_path(words.rig) : words.output;
     if (!path.ends_with(".maps"))
@@ -65,7 +65,7 @@ void add_rig_tables(CLI::App& rig, Command& chosen)
 {
     CLI::App* command =
         rig.add_subcommand("tables", "Build the rectification tables and store them beside the rig file");
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<RigTablesWords>();
     command->add_option("RIG", words->rig, "rig file of the two cameras (YAML)")->required();
     command->add_option("-o,--output", words->output,
                         "tables, .maps (default: the rig file's name with .maps, where process and rectify look)");

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::int64_t kMostRehearsed = 100'000;
 
-struct Words
+struct RunWords
 {
     ConfigWords config;
     std::string root;
@@ -65,7 +65,7 @@ Status open_watch(StageWatch& watch, const Config& config, const std::string& st
     return {};
 }
 
-Result<std::int64_t> told_from(const Words& words)
+Result<std::int64_t> told_from(const RunWords& words)
 {
     if (words.from.empty())
         return std::chrono::duration_cast<std::chrono::microseconds>(
@@ -76,7 +76,7 @@ Result<std::int64_t> told_from(const Words& words)
     return failure(Fault::kUsage, "--from is %s: give a time as 2026-06-01T06:00:00Z", words.from.c_str());
 }
 
-Status check(const Words& words, const Config& config, const Schedule& schedule)
+Status check(const RunWords& words, const Config& config, const Schedule& schedule)
 {
     if (words.rehearsed > 0 && config.cameras.left.by != BoundBy::kReplay)
         return failure(Fault::kUsage, "a rehearsal needs recorded pictures: give cameras.left = \"replay:FOLDER\"");
@@ -117,7 +117,7 @@ void use_ports(CamerasPower& cameras, const Config& config)
 }
 
 /// The clouds on the cable are a process of their own: what a computer may do there never meets the series.
-void show_to_computers(GadgetChild& child, const Words& words, const std::string& config_file)
+void show_to_computers(GadgetChild& child, const RunWords& words, const std::string& config_file)
 {
     std::vector<std::string> said{"dicot", "gadget", "up"};
     if (!config_file.empty())
@@ -128,7 +128,7 @@ void show_to_computers(GadgetChild& child, const Words& words, const std::string
         journal(Priority::kWarning, "%s", started.message());
 }
 
-Status go(const Words& words, const LoadedConfig& loaded, const Schedule& schedule, const TimeZone& zone)
+Status go(const RunWords& words, const LoadedConfig& loaded, const Schedule& schedule, const TimeZone& zone)
 {
     const Config& config = loaded.config;
     RunMemory::keep_address_space_known();
@@ -170,7 +170,7 @@ Status go(const Words& words, const LoadedConfig& loaded, const Schedule& schedu
     return series.run(told ? std::optional{words.rehearsed} : std::nullopt);
 }
 
-Status run(const Words& words)
+Status run(const RunWords& words)
 {
     const LoadedConfig loaded = TRY(words.config.load());
     const Schedule schedule = TRY(make_schedule(loaded.config.schedule));
@@ -184,7 +184,7 @@ Status run(const Words& words)
 void add_run(CLI::App& program, Command& chosen)
 {
     CLI::App* command = program.add_subcommand("run", "Slot after slot by the schedule, for months");
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<RunWords>();
     words->config.add_to(*command);
     command->add_option("-o,--output,--store", words->root, "folder of the store, as for snap (default: output.folder)")
         ->type_name("DIR");

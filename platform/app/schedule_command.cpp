@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-struct Words
+struct ScheduleWords
 {
     ConfigWords config;
     int next = 10;
@@ -50,7 +50,7 @@ struct Question
     }
 };
 
-Result<Question> question_of(const Words& words)
+Result<Question> question_of(const ScheduleWords& words)
 {
     const LoadedConfig loaded = TRY(words.config.load());
     const ScheduleConfig& config = loaded.config.schedule;
@@ -109,7 +109,7 @@ json json_of(const Question& question, const std::vector<Slot>& slots)
             {"slots", list}};
 }
 
-Status run(const Words& words)
+Status run(const ScheduleWords& words)
 {
     const Question question = TRY(question_of(words));
     const std::vector<Slot> slots = question.slots(words.next);
@@ -128,7 +128,7 @@ Status run(const Words& words)
 void add_schedule(CLI::App& program, Command& chosen)
 {
     CLI::App* command = program.add_subcommand("schedule", "When the next snapshots are due, in local time and in UTC");
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<ScheduleWords>();
     command->add_option("--next", words->next, "how many (default: 10)")->check(CLI::Range(1, 100'000));
     command->add_option("--from", words->from, "from this day or time on, UTC (default: now)")->type_name("TIME");
     words->config.add_to(*command);

@@ -12,7 +12,7 @@
 namespace dicot::app {
 namespace {
 
-struct Words
+struct SelftestWords
 {
     std::uint64_t seed = 0;
     bool seeded = false;
@@ -50,7 +50,7 @@ void print(const proof::Report& report)
     }
 }
 
-Status run(const Words& words)
+Status run(const SelftestWords& words)
 {
     const std::uint64_t seed = words.seeded ? words.seed : std::random_device{}();
     const proof::Report report = TRY(proof::prove_this_processor(seed));
@@ -71,7 +71,7 @@ Status run(const Words& words)
 void add_selftest(CLI::App& program, Command& chosen)
 {
     CLI::App* command = program.add_subcommand("selftest", "Prove the vector kernels on this processor");
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<SelftestWords>();
     command->add_option("--seed", words->seed, "run the cases of an earlier run again")
         ->each([words](const std::string&) { words->seeded = true; });
     command->add_flag("--json", words->json, "report as JSON");

@@ -16,7 +16,7 @@
 namespace dicot::app {
 namespace {
 
-struct Words
+struct ShowWords
 {
     StoreWords store;
     std::int64_t sequence = 0;
@@ -136,7 +136,7 @@ Status show(const FoundSlot& slot, bool as_json)
     return failure(Fault::kBadData, "%s", shown(flaw.message()).c_str());
 }
 
-Status run(const Words& words)
+Status run(const ShowWords& words)
 {
     const FoundStores found = TRY(words.store.find());
     StoreOutcome outcome(found);
@@ -151,7 +151,7 @@ void add_show(CLI::App& program, Command& chosen)
 {
     CLI::App* command =
         program.add_subcommand("show", "One slot: its record, its files and whether these are as they were written");
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<ShowWords>();
     command->add_option("NUMBER", words->sequence, "as dicot list has it")->required()->transform(slot_number());
     words->store.add_to(*command);
     command->add_flag("--json", words->json, "the record itself, and what the catalogue has");

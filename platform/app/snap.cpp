@@ -18,7 +18,7 @@
 namespace dicot::app {
 namespace {
 
-struct Words
+struct SnapWords
 {
     ConfigWords config;
     std::string root;
@@ -41,7 +41,7 @@ void print(const nlohmann::json& record, const std::string& folder)
                 times["triangulate"].get<double>(), times["encode"].get<double>());
 }
 
-void report(const Words& words, SnapshotTold& told, const std::string& path)
+void report(const SnapWords& words, SnapshotTold& told, const std::string& path)
 {
     const std::string folder = path + "/" + told.folder;
     for (const std::string& warning : told.warnings)
@@ -60,7 +60,7 @@ void report(const Words& words, SnapshotTold& told, const std::string& path)
         std::fprintf(stderr, "dicot: the miss is recorded in %s/record.json\n", folder.c_str());
 }
 
-Status run(const Words& words)
+Status run(const SnapWords& words)
 {
     LoadedConfig loaded = TRY(words.config.load());
     Config& config = loaded.config;
@@ -100,7 +100,7 @@ void add_snap(CLI::App& program, Command& chosen)
 {
     CLI::App* command =
         program.add_subcommand("snap", "One snapshot: capture, rectify, match, triangulate, encode, store");
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<SnapWords>();
     words->config.add_to(*command);
     command
         ->add_option("-o,--output,--store", words->root,

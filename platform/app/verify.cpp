@@ -18,7 +18,7 @@
 namespace dicot::app {
 namespace {
 
-struct Words
+struct VerifyWords
 {
     StoreWords store;
     bool repair = false;
@@ -66,7 +66,7 @@ void print(const DeviceFolder& device, const Finding& finding)
 }
 
 /// What was found until a failure stays in `verified`.
-Status verify(const Words& words, const DeviceFolder& device, const StoreRules& rules, Verified& verified)
+Status verify(const VerifyWords& words, const DeviceFolder& device, const StoreRules& rules, Verified& verified)
 {
     Progress bar("verifying");
     const auto found = [&](const Finding& finding) {
@@ -128,7 +128,7 @@ nlohmann::json json_of(const DeviceFolder& device, const Verified& verified, con
     return told;
 }
 
-Status run(const Words& words)
+Status run(const VerifyWords& words)
 {
     const FoundStores found = TRY(words.store.find());
     const StoreRules rules = rules_of(found.output);
@@ -164,7 +164,7 @@ void add_verify(CLI::App& program, Command& chosen)
 {
     CLI::App* command =
         program.add_subcommand("verify", "Reads and hashes all that is stored; exit code 65 if something is damaged");
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<VerifyWords>();
     command->add_flag("--repair", words->repair,
                       "damaged folders to quarantine, the catalogue made again of the folders; nothing is deleted");
     words->store.add_to(*command);

@@ -117,7 +117,7 @@ TEST(Memory, ASizeThatNoPictureHasIsRefused)
 TEST(Match, AnUnknownWordIsAUsageError)
 {
     const Pair pair;
-    for (const std::string wrong : {"--method best", "--cost much", "--cpu abacus", "--threads -1", "--quick"}) {
+    for (const std::string wrong : {"--method magic", "--cost much", "--cpu abacus", "--threads -1", "--quick"}) {
         const std::size_t files = pair.folder.files();
         const ToolRun run = complaint("match " + pair.both() + " -o " + pair.output + " " + wrong);
         EXPECT_EQ(run.exit_code, 64) << wrong;

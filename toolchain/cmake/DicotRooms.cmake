@@ -43,6 +43,12 @@ function(dicot_room target)
   set_property(GLOBAL APPEND PROPERTY DICOT_TARGETS ${target})
 endfunction()
 
+# dicot_together(TARGET <subject> SOURCES...): these files of the target are compiled as one.
+function(dicot_together target subject)
+  set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${subject})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endfunction()
+
 function(dicot_check_layers)
   get_property(targets GLOBAL PROPERTY DICOT_TARGETS)
   set(faults "")

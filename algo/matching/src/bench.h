@@ -8,6 +8,7 @@
 #include "refine.h"
 #include "scanline.h"
 #include "select.h"
+#include "surfaces.h"
 #include "tables.h"
 
 #include <span>
@@ -33,6 +34,7 @@ struct Bench
     ColourWeights voters;            ///< how much neighbours count when kBest fills: colours may differ more
     std::span<std::uint8_t> columns; ///< scratch of kBest, one entry a column
     ColumnPaths paths;               ///< of kBest
+    SurfaceRefiner refiner;          ///< of kBest
     std::span<Station> stations;
 };
 

@@ -31,18 +31,21 @@ void lay_out(Bench& bench, Arena& arena, const MatchOptions& options, int worker
     Scene& scene = bench.scene;
     const int window = 2 * scene.radius + 1;
     const auto cells = static_cast<std::size_t>(window * window);
+    const bool best = options.method == MatchMethod::kBest;
+    const int margin = best ? std::max(scene.radius, SurfaceRefiner::kReach) : scene.radius;
     scene.left_spatial = arena.take<std::uint16_t>(cells);
     scene.right_spatial = arena.take<std::uint16_t>(cells);
-    scene.left.lay_out(arena, scene.width, scene.height, scene.radius, scene.radius);
-    scene.right.lay_out(arena, scene.width, scene.height, scene.radius + scene.axis - 1, scene.radius);
+    scene.left.lay_out(arena, scene.width, scene.height, margin, margin);
+    scene.right.lay_out(arena, scene.width, scene.height, margin + scene.axis - 1, margin);
     bench.maps.disparity = take_map<DispQ8>(arena, scene.width, scene.height);
     bench.maps.confidence = take_map<std::uint8_t>(arena, scene.width, scene.height);
     bench.maps.verdict = take_map<Verdict>(arena, scene.width, scene.height);
     if (options.dense && options.method != MatchMethod::kPaper)
         bench.maps.scratch = take_map<DispQ8>(arena, scene.width, scene.height);
-    if (options.method == MatchMethod::kBest) {
+    if (best) {
         bench.columns = arena.take<std::uint8_t>(static_cast<std::size_t>(scene.width));
         bench.paths.lay_out(arena, scene, workers);
+        bench.refiner.lay_out(arena, scene);
     }
     for (int i = 0; i < workers; ++i) {
         Station measured;
@@ -190,6 +193,9 @@ MatchOutcome Matcher::match(ImageView<const Rgb8> left, ImageView<const Rgb8> ri
         if (check_both_ways)
             smooth(bench.maps, scene.left, scene.colour, crew);
     }
+
+    if (best)
+        bench.refiner.refine(scene, bench.maps.disparity, crew);
 
     MatchOutcome outcome{};
     outcome.map.relative = bench.maps.disparity;

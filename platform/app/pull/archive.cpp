@@ -20,7 +20,7 @@
 namespace dicot::app {
 namespace {
 
-struct Words
+struct ArchiveWords
 {
     std::string archive;
     bool json = false;
@@ -41,7 +41,7 @@ Status look(const DeviceFolder& board, Told& told)
     return {};
 }
 
-Status status(const Words& words)
+Status status(const ArchiveWords& words)
 {
     const std::string archive = TRY(archive_folder(words.archive));
     StoreOutcome worst(FoundStores{});
@@ -83,7 +83,7 @@ Status check_board(const DeviceFolder& board, bool json, ArchiveCheck& check, nl
     return {};
 }
 
-Status check(const Words& words)
+Status check(const ArchiveWords& words)
 {
     const std::string archive = TRY(archive_folder(words.archive));
     const StopRequest stop;
@@ -119,7 +119,7 @@ Status check(const Words& words)
     return worst.worst();
 }
 
-void add_words(CLI::App& command, const std::shared_ptr<Words>& words)
+void add_words(CLI::App& command, const std::shared_ptr<ArchiveWords>& words)
 {
     command.add_option("DEST", words->archive, "the archive's folder (default: dicot-clouds in your home)");
     command.add_flag("--json", words->json, "report as JSON");
@@ -131,7 +131,7 @@ void add_archive(CLI::App& program, Command& chosen)
 {
     CLI::App* command = program.add_subcommand("archive", "What was pulled into an archive on this computer");
     command->require_subcommand(1);
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<ArchiveWords>();
     CLI::App* status_command =
         command->add_subcommand("status", "What is there of each board, what was missed, and what is missing");
     add_words(*status_command, words);

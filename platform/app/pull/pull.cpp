@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kMostAtOnce = 16;
 
-struct Words
+struct PullWords
 {
     std::string archive;
     std::string device;
@@ -42,7 +42,7 @@ struct JobOutcome
     std::vector<PullReport> boards;
 };
 
-Result<PullWishes> wishes_of(const Words& words)
+Result<PullWishes> wishes_of(const PullWords& words)
 {
     PullWishes wishes;
     wishes.archive = TRY(archive_folder(words.archive));
@@ -98,7 +98,7 @@ bool some_board(const std::vector<JobOutcome>& outcomes)
     return std::ranges::any_of(outcomes, [](const JobOutcome& outcome) { return !outcome.boards.empty(); });
 }
 
-Status print(const Words& words, const PullWishes& wishes, const std::vector<PullJob>& jobs,
+Status print(const PullWords& words, const PullWishes& wishes, const std::vector<PullJob>& jobs,
              const std::vector<JobOutcome>& outcomes)
 {
     StoreOutcome worst(FoundStores{});
@@ -135,7 +135,7 @@ Status print(const Words& words, const PullWishes& wishes, const std::vector<Pul
     return worst.worst();
 }
 
-Status run(const Words& words)
+Status run(const PullWords& words)
 {
     const PullWishes wishes = TRY(wishes_of(words));
     const std::vector<PullJob> jobs =
@@ -150,7 +150,7 @@ void add_pull(CLI::App& program, Command& chosen)
 {
     CLI::App* command = program.add_subcommand(
         "pull", "Everything new from every board on a cable into an archive on this computer, verified");
-    auto words = std::make_shared<Words>();
+    auto words = std::make_shared<PullWords>();
     command->add_option("DEST", words->archive, "the archive's folder (default: dicot-clouds in your home)");
     command
         ->add_option("--device", words->device,

@@ -1,0 +1,272 @@
+#include "surfaces.h"
+
+#include "plane_sums.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <utility>
+
+namespace dicot::matching {
+namespace {
+
+constexpr int kRounds = 4;
+constexpr int kOnePx = 1 << kSlopeBits;
+/// Neighbours farther from the plane than this are of another surface; wider in the first fit, which knows no slope.
+constexpr int kSameSurface = kOnePx;
+constexpr int kSameSurfaceAtFirst = 3 * kOnePx / 2;
+/// A round moves a pixel by no more.
+constexpr int kLongestStep = kOnePx / 2;
+/// Where the pictures differ by more, 40 grey levels, they do not show the same.
+constexpr int kSameBrightness = 40 << 4;
+constexpr std::int16_t kUnknown = INT16_MIN;
+/// Neighbours of the shift: a square of 9, every pixel; of the planes: 17, every second one.
+constexpr int kShiftReach = 4, kShiftStride = 1;
+constexpr int kFitReach = SurfaceRefiner::kReach, kFitStride = 2;
+
+/// The support weights of a strip of pixels to all neighbours, 0 .. 127.
+template <int reach, int stride>
+class Neighbourhood
+{
+public:
+    static constexpr int kSide = 2 * reach / stride + 1;
+    static constexpr int kStrip = 32;
+
+    void weigh(const Scene& scene, int y, int x0, int count)
+    {
+        constexpr PairU16 kBoth = {kLeftWeightOne, kLeftWeightOne};
+        const auto moved = [](LabRow row, int columns) { return LabRow{row.la + columns, row.b + columns}; };
+        for (int row = 0; row < kSide; row += 2) {
+            const int dy = row * stride - reach;
+            const LabRow low = scene.left.lab(y + dy);
+            const LabRow high = scene.left.lab(row + 1 < kSide ? y + dy + stride : -1);
+            for (int column = 0; column < kSide; ++column) {
+                const int dx = column * stride - reach;
+                scene.kernels->support_weights(weights_[static_cast<std::size_t>(row / 2 * kSide + column)].data(), count,
+                                               moved(scene.left.lab(y), x0), moved(low, x0 + dx), moved(high, x0 + dx),
+                                               scene.colour.table, kBoth);
+            }
+        }
+    }
+
+    /// Calls visit(weight, dx, dy) for each neighbour of pixel i of the strip that counts. All are inside the picture.
+    template <typename Visit>
+    void visit(int i, Visit&& visit) const
+    {
+        for (int row = 0; row < kSide; ++row) {
+            for (int column = 0; column < kSide; ++column) {
+                const PairU16 pair =
+                    weights_[static_cast<std::size_t>(row / 2 * kSide + column)][static_cast<std::size_t>(i)];
+                const int weight = (row % 2 == 0 ? pair.low : pair.high) >> 8;
+                if (weight > 0)
+                    visit(weight, column * stride - reach, row * stride - reach);
+            }
+        }
+    }
+
+private:
+    std::array<std::array<PairU16, kStrip>, static_cast<std::size_t>((kSide + 1) / 2 * kSide)> weights_;
+};
+
+/// Catmull and Rom's cubic through four values, `t` of kSlopeBits fraction bits from the second to the third.
+int cubic(const std::int16_t* p, int t)
+{
+    int sum = 3 * (p[1] - p[2]) + p[3] - p[0];
+    sum = 2 * p[0] - 5 * p[1] + 4 * p[2] - p[3] + (sum * t >> kSlopeBits);
+    sum = p[2] - p[0] + (sum * t >> kSlopeBits);
+    return p[1] + (sum * t >> (kSlopeBits + 1));
+}
+
+/// Sums of a shift's least squares. Weight <= 127, |difference| <= 640, |gradient| < 2^14, 81 neighbours: every sum of
+/// two factors is below 2^42, products of two sums below 2^55.
+struct ShiftSums
+{
+    std::int64_t one = 0, gradient = 0, difference = 0, squares = 0, products = 0;
+
+    void add(std::int64_t weight, int difference_here, int gradient_here)
+    {
+        one += weight;
+        gradient += weight * gradient_here;
+        difference += weight * difference_here;
+        squares += weight * gradient_here * gradient_here;
+        products += weight * difference_here * gradient_here;
+    }
+};
+/// (grey level / px)^2 with the full weight, in units of `squares`.
+constexpr std::int64_t kSquareUnit = std::int64_t{64 * 64} * 128;
+/// Noise has gradients too: this much is none.
+constexpr std::int64_t kNoTexture = 30 * kSquareUnit;
+
+template <typename Pixel>
+ImageView<Pixel> take_plane(Arena& arena, const Scene& scene)
+{
+    const auto pixels =
+        arena.take<Pixel>(static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height));
+    return {pixels.data(), scene.width, scene.height};
+}
+
+} // namespace
+
+void SurfaceRefiner::lay_out(Arena& arena, const Scene& scene)
+{
+    for (ImageView<std::int16_t>* plane : {&left_, &right_, &difference_, &gradient_})
+        *plane = take_plane<std::int16_t>(arena, scene);
+    texture_ = take_plane<std::uint16_t>(arena, scene);
+    slopes_ = take_plane<Slope>(arena, scene);
+    next_ = take_plane<Slope>(arena, scene);
+}
+
+void SurfaceRefiner::read_brightness(const Scene& scene, Crew& crew)
+{
+    // ITU-R BT.601 luma.
+    const auto read = [](CostRow row, int first, int last, int shift, std::int16_t* to) {
+        for (int x = first; x < last; ++x) {
+            const int c = x + shift;
+            to[x] = static_cast<std::int16_t>((77 * row.red[c] + 150 * row.green[c] + 29 * row.blue[c]) >> 4);
+        }
+    };
+    // Columns of the right picture that lie outside its search frame are never looked up.
+    const int first = std::max(0, -(scene.axis - 1) - kReach - scene.min_disparity);
+    const int last = std::min(scene.width, scene.width + kReach - scene.min_disparity);
+    crew.run(scene.height, [&](int y) {
+        read(scene.left.cost(y), 0, scene.width, 0, left_.row(y));
+        std::fill_n(right_.row(y), scene.width, std::int16_t{0});
+        read(scene.right.cost(y), first, last, scene.min_disparity, right_.row(y));
+    });
+}
+
+void SurfaceRefiner::look_up(const Scene& scene, Crew& crew)
+{
+    crew.run(scene.height, [&](int y) {
+        const std::int16_t* left = left_.row(y);
+        const std::int16_t* right = right_.row(y);
+        for (int x = 0; x < scene.width; ++x) {
+            difference_.row(y)[x] = kUnknown;
+            const Slope& own = slopes_.row(y)[x];
+            if (own.disparity == kNoSlope || x < 1 || x + 1 >= scene.width)
+                continue;
+            const int position = ((x - scene.min_disparity) << kSlopeBits) - own.disparity;
+            const int column = position >> kSlopeBits;
+            const int t = position & (kOnePx - 1);
+            if (column < 1 || column + 2 >= scene.width)
+                continue;
+            const int difference = left[x] - cubic(right + column - 1, t);
+            if (std::abs(difference) > kSameBrightness)
+                continue;
+            const int before = right[column + 1] - right[column - 1];
+            const int after = right[column + 2] - right[column];
+            difference_.row(y)[x] = static_cast<std::int16_t>(difference);
+            gradient_.row(y)[x] = static_cast<std::int16_t>(left[x + 1] - left[x - 1] + before +
+                                                            ((after - before) * t >> kSlopeBits));
+        }
+    });
+}
+
+void SurfaceRefiner::shift_row(const Scene& scene, int y)
+{
+    using Window = Neighbourhood<kShiftReach, kShiftStride>;
+    Window window;
+    for (int x0 = 0; x0 < scene.width; x0 += Window::kStrip) {
+        const int count = std::min(Window::kStrip, scene.width - x0);
+        window.weigh(scene, y, x0, count);
+        for (int i = 0; i < count; ++i) {
+            const int x = x0 + i;
+            const Slope own = slopes_.row(y)[x];
+            next_.row(y)[x] = own;
+            texture_.row(y)[x] = 0;
+            if (own.disparity == kNoSlope)
+                continue;
+            ShiftSums sums;
+            window.visit(i, [&](int weight, int dx, int dy) {
+                const int difference = difference_.row(y + dy)[x + dx];
+                if (difference == kUnknown)
+                    return;
+                const int plane = own.disparity + own.across * dx + own.down * dy;
+                if (std::abs(slopes_.row(y + dy)[x + dx].disparity - plane) <= kSameSurface)
+                    sums.add(weight, difference, gradient_.row(y + dy)[x + dx]);
+            });
+            if (sums.one == 0)
+                continue;
+            const std::int64_t squares = sums.squares - sums.gradient * sums.gradient / sums.one;
+            const std::int64_t products = sums.products - sums.difference * sums.gradient / sums.one;
+            // A difference is in 1/16, a gradient in 1/64 grey level.
+            const std::int64_t step = -(products * (4 << kSlopeBits)) / (squares + kNoTexture);
+            next_.row(y)[x].disparity +=
+                static_cast<std::int32_t>(std::clamp<std::int64_t>(step, -kLongestStep, kLongestStep));
+            texture_.row(y)[x] =
+                static_cast<std::uint16_t>(std::min<std::int64_t>(squares / kSquareUnit + 1, PlaneSums::kMostWeight));
+        }
+    }
+}
+
+void SurfaceRefiner::fit_row(const Scene& scene, int y, int same_surface)
+{
+    using Window = Neighbourhood<kFitReach, kFitStride>;
+    Window window;
+    for (int x0 = 0; x0 < scene.width; x0 += Window::kStrip) {
+        const int count = std::min(Window::kStrip, scene.width - x0);
+        window.weigh(scene, y, x0, count);
+        for (int i = 0; i < count; ++i) {
+            const int x = x0 + i;
+            const Slope own = slopes_.row(y)[x];
+            next_.row(y)[x] = own;
+            if (own.disparity == kNoSlope)
+                continue;
+            PlaneSums sums;
+            window.visit(i, [&](int weight, int dx, int dy) {
+                const std::int32_t disparity = slopes_.row(y + dy)[x + dx].disparity;
+                const int texture = texture_.row(y + dy)[x + dx];
+                if (disparity == kNoSlope || texture == 0)
+                    return;
+                const int rise = disparity - own.disparity;
+                if (std::abs(rise - own.across * dx - own.down * dy) <= same_surface)
+                    sums.add(std::int64_t{weight} * texture, dx, dy, rise);
+            });
+            if (sums.one == 0)
+                continue;
+            const PlaneSums::Plane plane = sums.plane();
+            if (std::abs(plane.centre) >= kOnePx)
+                continue;
+            next_.row(y)[x] = {own.disparity + plane.centre, static_cast<std::int16_t>(plane.across),
+                               static_cast<std::int16_t>(plane.down)};
+        }
+    }
+}
+
+void SurfaceRefiner::fit_planes(const Scene& scene, Crew& crew, int same_surface)
+{
+    crew.run(scene.height, [&](int y) { fit_row(scene, y, same_surface); });
+    std::swap(slopes_, next_);
+}
+
+void SurfaceRefiner::refine(const Scene& scene, ImageView<DispQ8> disparity, Crew& crew)
+{
+    constexpr int kMoreBits = kSlopeBits - kDispFractionBits;
+    crew.run(scene.height, [&](int y) {
+        for (int x = 0; x < scene.width; ++x) {
+            const DispQ8 d = disparity.row(y)[x];
+            slopes_.row(y)[x] = {d == kDispMissing ? kNoSlope : d << kMoreBits, 0, 0};
+            texture_.row(y)[x] = 1;
+        }
+    });
+    read_brightness(scene, crew);
+    fit_planes(scene, crew, kSameSurfaceAtFirst);
+    fit_planes(scene, crew, kSameSurface);
+    for (int round = 0; round < kRounds; ++round) {
+        look_up(scene, crew);
+        crew.run(scene.height, [&](int y) { shift_row(scene, y); });
+        std::swap(slopes_, next_);
+        fit_planes(scene, crew, kSameSurface);
+    }
+    const int most = (scene.disparities - 1) << kDispFractionBits;
+    crew.run(scene.height, [&](int y) {
+        for (int x = 0; x < scene.width; ++x) {
+            const std::int32_t d = slopes_.row(y)[x].disparity;
+            if (d != kNoSlope)
+                disparity.row(y)[x] =
+                    static_cast<DispQ8>(std::clamp((d + (1 << (kMoreBits - 1))) >> kMoreBits, 0, most));
+        }
+    });
+}
+
+} // namespace dicot::matching

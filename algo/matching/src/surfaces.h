@@ -1,0 +1,53 @@
+// Disparities between whole pixels, on surfaces that slant: where a second look at both pictures puts them.
+#pragma once
+
+#include "cost_rows.h"
+#include "dicot/base/work.h"
+#include "refine.h"
+
+#include <span>
+
+namespace dicot::matching {
+
+/// A pixel's disparity and how it changes towards its neighbours.
+struct Slope
+{
+    std::int32_t disparity; ///< relative, px with kSlopeBits fraction bits; kNoSlope where there is none
+    std::int16_t across;    ///< px a column, kSlopeBits fraction bits
+    std::int16_t down;      ///< px a row, the same
+};
+inline constexpr int kSlopeBits = 12;
+inline constexpr std::int32_t kNoSlope = INT32_MIN;
+
+/// The winners' windows are parallel to the picture and their parabola pulls towards whole pixels. This goes by the
+/// pictures' brightness instead (Lucas and Kanade 1981, with one unknown a pixel, the disparity, and the brightness
+/// between the cameras as the second): each neighbour is looked up in the right picture at its own disparity, so the
+/// surface may slant and bend. Between the rounds planes are fitted to the neighbourhood, in which a pixel counts as
+/// much as its texture tells. Both with the support weights of the left picture and only among neighbours that lie on
+/// the same plane.
+class SurfaceRefiner
+{
+public:
+    /// How far the neighbourhood reaches, px: the planes' margins must be as wide.
+    static constexpr int kReach = 8;
+
+    /// Memory for pictures of the scene's size. What it holds lives only during refine().
+    void lay_out(Arena& arena, const Scene& scene);
+
+    /// Moves every disparity that is not missing; which are missing stays.
+    void refine(const Scene& scene, ImageView<DispQ8> disparity, Crew& crew);
+
+private:
+    void read_brightness(const Scene& scene, Crew& crew);
+    void look_up(const Scene& scene, Crew& crew);
+    void shift_row(const Scene& scene, int y);
+    void fit_row(const Scene& scene, int y, int same_surface);
+    void fit_planes(const Scene& scene, Crew& crew, int same_surface);
+
+    ImageView<std::int16_t> left_, right_;          ///< brightness, 1/16 grey level
+    ImageView<std::int16_t> difference_, gradient_; ///< left minus right at the disparity; 64 x grey levels a px
+    ImageView<std::uint16_t> texture_;              ///< what a pixel's neighbourhood tells about it
+    ImageView<Slope> slopes_, next_;
+};
+
+} // namespace dicot::matching
