@@ -19,6 +19,6 @@ for object in "$@"; do
         echo "$object holds the symbols above, which the linker may take for the whole program" >&2
         exit 1
     fi
-    "$nm" "$object" | grep -qE ' [DR] .*Kernels' || { echo "$object holds no table of kernels" >&2; exit 1; }
+    "$nm" "$object" | grep -qE ' ([DR] .*Kernels|T .*_path_step)' || { echo "$object holds no kernels" >&2; exit 1; }
 done
 [ "$seen" -gt 0 ] || { echo "no object of a vector file was named" >&2; exit 1; }

@@ -2,7 +2,7 @@
 
 #include <arm_neon.h>
 
-// One file for aarch64 and armhf: the differences are the small functions under the #if.
+// For aarch64 and armhf: the differences are the four small functions under the #if.
 // Everything here has internal linkage: see the note on vector files in kernels.h.
 namespace dicot {
 namespace {
@@ -42,14 +42,6 @@ uint8x8_t look_up(uint8x16_t table, uint8x8_t index)
 {
     return vqtbl1_u8(table, index);
 }
-std::uint16_t least_lane(uint16x8_t values)
-{
-    return vminvq_u16(values);
-}
-std::uint16_t largest_lane(uint16x8_t values)
-{
-    return vmaxvq_u16(values);
-}
 // 2 pixels * 4 vectors * 3 sums leave 8 of the 32 registers.
 constexpr bool kPixelsInPairs = true;
 #else
@@ -69,18 +61,6 @@ int32x4_t add_neighbours(int32x4_t low, int32x4_t high)
 uint8x8_t look_up(uint8x16_t table, uint8x8_t index)
 {
     return vtbl2_u8({{vget_low_u8(table), vget_high_u8(table)}}, index);
-}
-std::uint16_t least_lane(uint16x8_t values)
-{
-    uint16x4_t least = vmin_u16(vget_low_u16(values), vget_high_u16(values));
-    least = vpmin_u16(least, least);
-    return vget_lane_u16(vpmin_u16(least, least), 0);
-}
-std::uint16_t largest_lane(uint16x8_t values)
-{
-    uint16x4_t most = vmax_u16(vget_low_u16(values), vget_high_u16(values));
-    most = vpmax_u16(most, most);
-    return vget_lane_u16(vpmax_u16(most, most), 0);
 }
 constexpr bool kPixelsInPairs = false; // 4 vectors * 3 sums leave 4 of the 16 registers
 #endif
@@ -402,112 +382,6 @@ void normalise(std::uint16_t* out, const std::uint32_t* numerator, const std::ui
         out[i] = static_cast<std::uint16_t>(std::uint64_t{numerator[i]} * 256 / denominator[i]);
 }
 
-// ---- paths and winners ----------------------------------------------------------------------------------------------
-
-uint16x8_t ramp()
-{
-    static const std::uint16_t kRamp[8] = {0, 1, 2, 3, 4, 5, 6, 7};
-    return vld1q_u16(kRamp);
-}
-
-// Adding 1 makes kNoCandidate the smallest value, and subtracting it again with saturation leaves 0.
-uint16x8_t worst_cost(const std::uint16_t* costs, uint16x8_t padding, int axis)
-{
-    const uint16x8_t one = vdupq_n_u16(1);
-    uint16x8_t most = vaddq_u16(vorrq_u16(vld1q_u16(costs), padding), one);
-    for (int r = 8; r < axis; r += 8)
-        most = vmaxq_u16(most, vaddq_u16(vld1q_u16(costs + r), one));
-    return vqsubq_u16(vdupq_n_u16(largest_lane(most)), one);
-}
-
-std::uint16_t path_step(std::uint16_t* ahead, const std::uint16_t* costs, const std::uint16_t* behind,
-                        std::uint16_t least, PathPenalty penalty, int first, int axis)
-{
-    const uint16x8_t nothing = vdupq_n_u16(kNoCandidate);
-    const uint16x8_t padding = vcltq_u16(ramp(), vdupq_n_u16(static_cast<std::uint16_t>(first)));
-    const uint16x8_t worst = worst_cost(costs, padding, axis);
-    const uint16x8_t small = vdupq_n_u16(penalty.small);
-    const uint16x8_t jump = vdupq_n_u16(static_cast<std::uint16_t>(least + penalty.large));
-    const uint16x8_t floor = vdupq_n_u16(least);
-    uint16x8_t least_ahead = nothing;
-    uint16x8_t previous = nothing;
-    uint16x8_t same = vld1q_u16(behind);
-    for (int r = 0; r < axis; r += 8) {
-        const uint16x8_t next = r + 8 < axis ? vld1q_u16(behind + r + 8) : nothing;
-        const uint16x8_t beside = vminq_u16(vextq_u16(previous, same, 7), vextq_u16(same, next, 1));
-        const uint16x8_t best = vminq_u16(vminq_u16(same, vqaddq_u16(beside, small)), jump);
-        const uint16x8_t own = vminq_u16(vld1q_u16(costs + r), worst);
-        uint16x8_t values = vaddq_u16(own, vsubq_u16(best, floor));
-        if (r == 0)
-            values = vorrq_u16(values, padding);
-        vst1q_u16(ahead + r, values);
-        least_ahead = vminq_u16(least_ahead, values);
-        previous = same;
-        same = next;
-    }
-    return least_lane(least_ahead);
-}
-
-// The least costs so far of each lane and where they were; the later one of two that are equal.
-struct Best
-{
-    uint16x8_t cost, position;
-
-    void meet(uint16x8_t costs, uint16x8_t positions)
-    {
-        const uint16x8_t later = vcleq_u16(costs, cost);
-        cost = vminq_u16(cost, costs);
-        position = vbslq_u16(later, positions, position);
-    }
-};
-
-void winners(Winner* out, const std::uint16_t* costs, int n, int axis)
-{
-    const uint16x8_t lanes = vdupq_n_u16(8);
-    const uint16x8_t two = vdupq_n_u16(2);
-    for (int i = 0; i < n; ++i, costs += axis) {
-        uint16x8_t positions = ramp();
-        Best best = {vld1q_u16(costs), positions};
-        for (int r = 8; r < axis; r += 8) {
-            positions = vaddq_u16(positions, lanes);
-            best.meet(vld1q_u16(costs + r), positions);
-        }
-        const std::uint16_t cost = least_lane(best.cost);
-        const uint16x8_t winning = vceqq_u16(best.cost, vdupq_n_u16(cost));
-        const std::uint16_t position = largest_lane(vandq_u16(best.position, winning));
-
-        const uint16x8_t middle = vdupq_n_u16(position);
-        uint16x8_t rivals = vdupq_n_u16(kNoCandidate);
-        positions = ramp();
-        for (int r = 0; r < axis; r += 8, positions = vaddq_u16(positions, lanes)) {
-            const uint16x8_t beside = vcltq_u16(vabdq_u16(positions, middle), two);
-            rivals = vminq_u16(rivals, vorrq_u16(vld1q_u16(costs + r), beside));
-        }
-        out[i].position = position;
-        out[i].cost = cost;
-        out[i].runner_up = least_lane(rivals);
-    }
-}
-
-void right_winners(std::uint16_t* cost, std::uint16_t* position, const std::uint16_t* costs, int n, int axis)
-{
-    if (n == 0)
-        return;
-    for (int j = 0; j < n + axis - 1; ++j) {
-        cost[j] = kNoCandidate;
-        position[j] = 0;
-    }
-    for (int i = 0; i < n; ++i, costs += axis, ++cost, ++position) {
-        uint16x8_t positions = ramp();
-        for (int r = 0; r < axis; r += 8, positions = vaddq_u16(positions, vdupq_n_u16(8))) {
-            Best best = {vld1q_u16(costs + r), positions}; // one that was there before wins a tie
-            best.meet(vld1q_u16(cost + r), vld1q_u16(position + r));
-            vst1q_u16(cost + r, best.cost);
-            vst1q_u16(position + r, best.position);
-        }
-    }
-}
-
 // ---- remap ----------------------------------------------------------------------------------------------------------
 
 // Two neighbouring pixels in the lower 6 bytes. The 8 bytes end at the row's end at the latest.
@@ -583,8 +457,14 @@ void remap_row(std::uint8_t* rgb, int n, const RemapSpan* spans, int cell_log2, 
 
 } // namespace
 
+// In neon_paths.cpp.
+std::uint16_t neon_path_step(std::uint16_t* ahead, const std::uint16_t* costs, const std::uint16_t* behind,
+                             std::uint16_t least, PathPenalty penalty, int first, int axis);
+void neon_winners(Winner* out, const std::uint16_t* costs, int n, int axis);
+void neon_right_winners(std::uint16_t* cost, std::uint16_t* position, const std::uint16_t* costs, int n, int axis);
+
 extern const Kernels kNeonKernels;
-const Kernels kNeonKernels = {"neon",    support_weights, match_cost,    aggregate, normalise,
-                              path_step, winners,         right_winners, remap_row};
+const Kernels kNeonKernels = {"neon",         support_weights, match_cost,         aggregate, normalise,
+                              neon_path_step, neon_winners,    neon_right_winners, remap_row};
 
 } // namespace dicot

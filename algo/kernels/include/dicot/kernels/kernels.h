@@ -166,13 +166,14 @@ struct Kernels
     /// numerator[i] <= kCostMax * denominator[i], so out[i] <= 256 * kCostMax.
     void (*normalise)(std::uint16_t* out, const std::uint32_t* numerator, const std::uint32_t* denominator, int n);
 
-    /// One step of a path over aggregated costs (Hirschmueller 2008, eq. 13), from a pixel to its neighbour. For position
-    /// r of `first` .. axis - 1
+    /// One step of a path over aggregated costs (Hirschmueller 2008, eq. 13), from a pixel to its neighbour. For
+    /// position r of `first` .. axis - 1
     ///   own      = min(costs[r], the largest of costs[first ..] that is not kNoCandidate, or 0 where all are)
     ///   ahead[r] = own + min(behind[r], behind[r - 1] + small, behind[r + 1] + small, least + large) - least
-    /// where nothing lies before `first` and after axis - 1, and ahead[r] = kNoCandidate for r below `first`. Returns the
-    /// least of `ahead`. Domain: costs at most kWorstCost, or kNoCandidate; behind[r] = kNoCandidate for r below `first`,
-    /// which is 0 .. kLanes - 1; `least`, at most kWorstCost, is the least of `behind`; `axis` is a multiple of kLanes.
+    /// where nothing lies before `first` and after axis - 1, and ahead[r] = kNoCandidate for r below `first`. Returns
+    /// the least of `ahead`. Domain: costs at most kWorstCost, or kNoCandidate; behind[r] = kNoCandidate for r below
+    /// `first`, which is 0 .. kLanes - 1; `least`, at most kWorstCost, is the least of `behind`; `axis` is a multiple
+    /// of kLanes.
     std::uint16_t (*path_step)(std::uint16_t* ahead, const std::uint16_t* costs, const std::uint16_t* behind,
                                std::uint16_t least, PathPenalty penalty, int first, int axis);
 
