@@ -6,8 +6,8 @@
 
 namespace dicot::matching {
 
-/// Points (dx, dy, rise) around a centre: |dx|, |dy| <= 8 px, |rise| < 2^17 in 1/4096 px, 81 of them at most, weights up
-/// to 2^7 kMostWeight. Every sum is below 2^50.
+/// Points (dx, dy, rise) around a centre: |dx|, |dy| <= 8 px, |rise| < 2^17 in 1/4096 px, 81 of them at most, weights
+/// up to 2^7 kMostWeight. Every sum is below 2^50.
 struct PlaneSums
 {
     static constexpr int kMostWeight = 65535;
