@@ -15,9 +15,6 @@ namespace matching {
 
 namespace {
 
-/// How far refining moves what a dense map is filled from, 1/256 px: rims that follow the wrong surface would spread.
-/// (Without filling, slanted leaves gain more from free moves than rims lose.)
-constexpr int kHalfPx = 128;
 /// The voters' gamma, in those of the support weights.
 constexpr double kVotersGamma = 1.5;
 
@@ -194,7 +191,7 @@ MatchOutcome Matcher::match(ImageView<const Rgb8> left, ImageView<const Rgb8> ri
     if (best || !options_.dense)
         drop_unmatched(bench.maps);
     if (best)
-        bench.refiner.refine(scene, bench.maps.disparity, options_.dense ? kHalfPx : kDispMissing, crew);
+        bench.refiner.refine(scene, bench.maps, options_.dense, crew);
     if (options_.dense && best) {
         take_majorities(bench.maps, scene.disparities, scene.left, bench.voters, crew);
         fill_along_planes(bench.maps, scene.disparities, scene.left, bench.voters, crew);
