@@ -23,17 +23,17 @@ public:
     std::span<std::uint16_t> costs(const Scene& scene, int y);
     int end_of_costs(const Scene& scene, int chunk) const;
 
-    /// Walks the columns of worker `worker` of `workers`; chunks from top to bottom.
+    /// Walks the columns of worker `worker` of `workers` and replaces the chunk's costs there by the mean of both
+    /// paths; kNoCandidate stays. Chunks from top to bottom.
     void walk(const Scene& scene, int chunk, int worker, int workers);
-    /// Replaces the costs of row y of the chunk by the mean of both paths; kNoCandidate stays.
-    void join(const Scene& scene, int y);
 
 private:
+    static constexpr std::size_t kScratch = 4 + kChunk; ///< a column's path upwards, and steps
+
     std::span<std::uint16_t> ring_;    ///< [kChunk + kAhead][width][axis]
-    std::span<std::uint16_t> paths_;   ///< [kChunk][width][axis]: the mean of both directions
     std::span<std::uint16_t> behind_;  ///< [width][axis]: the path downwards where the last chunk ended
     std::span<std::uint16_t> least_;   ///< [width]
-    std::span<std::uint16_t> scratch_; ///< [workers][4][axis]
+    std::span<std::uint16_t> scratch_; ///< [workers][kScratch][axis]
 };
 
 } // namespace dicot::matching

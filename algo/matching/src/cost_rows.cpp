@@ -51,6 +51,12 @@ void CostRows::lay_out(Arena& arena, const Scene& scene)
         near_row_ = arena.take<std::uint16_t>(size_of(1, 1, scene.axis));
         near_.lay_out(arena, scene);
     }
+    clear();
+}
+
+void CostRows::clear()
+{
+    near_.clear();
     std::fill(costs_.begin(), costs_.end(), PairU16{0, 0});
     std::fill(left_.begin(), left_.end(), PairU16{0, 0});
     std::fill(right_.begin(), right_.end(), PairU16{0, 0});

@@ -54,6 +54,9 @@ class CostRows
 public:
     void lay_out(Arena& arena, const Scene& scene);
 
+    /// As lay_out left it, after its memory has served something else.
+    void clear();
+
     /// The next calls of row() start a new band: any row may follow.
     void restart() { next_cost_row_ = -1; }
 

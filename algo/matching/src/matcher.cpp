@@ -47,9 +47,12 @@ void lay_out(Bench& bench, Arena& arena, const MatchOptions& options, int worker
         bench.maps.scratch = take_map<DispQ8>(arena, scene.width, scene.height);
     if (best) {
         bench.columns = arena.take<std::uint8_t>(static_cast<std::size_t>(scene.width));
+        // The refiner works where the rows' tables were: they are over, and begin anew with every match.
+        const std::size_t rows_tables = arena.used();
+        bench.refiner.lay_out(arena, scene);
+        arena.rewind(rows_tables);
         scene.right_edges.lay_out(arena, scene.width, scene.height, scene.axis - 1);
         bench.paths.lay_out(arena, scene, workers);
-        bench.refiner.lay_out(arena, scene);
     }
     for (int i = 0; i < workers; ++i) {
         Station measured;

@@ -36,7 +36,11 @@ void NearWindow::lay_out(Arena& arena, const Scene& scene)
     right_spatial_ = arena.take<std::uint16_t>(size_of(kColumns, kColumns));
     left_ = arena.take<PairU16>(size_of(kColumns, kStrip));
     right_ = arena.take<PairU16>(size_of(kGroups, kColumns) * static_cast<std::size_t>(right_stride_));
-    if (!arena.measuring())
+}
+
+void NearWindow::clear()
+{
+    if (!left_spatial_.empty())
         fill_spatial_weights(left_spatial_.data(), right_spatial_.data(), kRadius, kReach);
 }
 

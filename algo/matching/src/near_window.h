@@ -29,8 +29,9 @@ public:
     /// short enough for a group's tables and costs to stay in a 48 KiB first-level cache.
     static constexpr int kStrip = 32;
 
-    /// Fills its spatial weights unless `arena` only counts.
     void lay_out(Arena& arena, const Scene& scene);
+    /// Fills its spatial weights, where it has any: to be done before the first strip.
+    void clear();
 
     /// Adds the sums of pixels x0 .. x0 + count - 1 of row y, count at most kStrip, to [count][axis]. Strips of a row
     /// are asked for from left to right, each but the last as long as the strip.

@@ -51,8 +51,7 @@ void RowWork::match_chunks(Crew& crew)
 {
     const Scene& scene = bench_.scene;
     ColumnPaths& paths = bench_.paths;
-    for (int worker = 0; worker < workers_; ++worker)
-        station(worker).costs.restart();
+    crew.run(workers_, [&](int worker) { station(worker).costs.clear(); });
     int made = 0;
     for (int chunk = 0; chunk * ColumnPaths::kChunk < scene.height; ++chunk) {
         const int end = paths.end_of_costs(scene, chunk);
@@ -78,10 +77,8 @@ void RowWork::match_chunks(Crew& crew)
         timed([&](int worker) {
             Station& mine = station(worker);
             const int top = chunk * ColumnPaths::kChunk;
-            for (int y = top + worker; y < std::min(top + ColumnPaths::kChunk, scene.height); y += workers_) {
-                paths.join(scene, y);
+            for (int y = top + worker; y < std::min(top + ColumnPaths::kChunk, scene.height); y += workers_)
                 select(y, mine, paths.costs(scene, y));
-            }
         });
     }
 }
