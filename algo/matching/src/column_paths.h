@@ -4,6 +4,7 @@
 #include "cost_rows.h"
 #include "dicot/base/arena.h"
 
+#include <algorithm>
 #include <span>
 
 namespace dicot::matching {
@@ -15,6 +16,12 @@ class ColumnPaths
 public:
     static constexpr int kChunk = 8; ///< rows
     static constexpr int kAhead = 8; ///< rows
+
+    /// Rows of the picture under the windows, `window` high, of all the rows of costs that are made for one chunk.
+    static constexpr int most_rows_at_once(int window)
+    {
+        return std::max(kChunk + window - 1, kChunk + kAhead + window / 2);
+    }
 
     void lay_out(Arena& arena, const Scene& scene, int workers);
 

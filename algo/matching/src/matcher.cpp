@@ -52,6 +52,7 @@ void lay_out(Bench& bench, Arena& arena, const MatchOptions& options, int worker
         bench.refiner.lay_out(arena, scene);
         arena.rewind(rows_tables);
         scene.right_edges.lay_out(arena, scene.width, scene.height, scene.axis - 1);
+        bench.raw.lay_out(arena, scene, ColumnPaths::most_rows_at_once(window));
         bench.paths.lay_out(arena, scene, workers);
     }
     for (int i = 0; i < workers; ++i) {
@@ -60,7 +61,7 @@ void lay_out(Bench& bench, Arena& arena, const MatchOptions& options, int worker
         if (options.method == MatchMethod::kFast)
             station.fast.lay_out(arena, scene);
         else
-            station.costs.lay_out(arena, scene);
+            station.costs.lay_out(arena, scene, best ? &bench.raw : nullptr);
         if (options.method != MatchMethod::kPaper)
             station.scanline.lay_out(arena, scene);
         station.selector.lay_out(arena, scene);
