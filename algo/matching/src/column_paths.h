@@ -17,7 +17,7 @@ public:
     static constexpr int kChunk = 8; ///< rows
     static constexpr int kAhead = 8; ///< rows
 
-    /// Rows of the picture under the windows, `window` high, of all the rows of costs that are made for one chunk.
+    /// How many rows of the picture the windows, `window` px high, of one chunk's new rows of costs cover at most.
     static constexpr int most_rows_at_once(int window)
     {
         return std::max(kChunk + window - 1, kChunk + kAhead + window / 2);
