@@ -44,9 +44,13 @@ void lay_out(Bench& bench, Arena& arena, const MatchOptions& options, int worker
         bench.maps.scratch = take_map<DispQ8>(arena, scene.width, scene.height);
     if (best) {
         bench.columns = arena.take<std::uint8_t>(static_cast<std::size_t>(scene.width));
-        scene.right_edges.lay_out(arena, scene.width, scene.height, scene.axis - 1);
-        bench.paths.lay_out(arena, scene, workers);
+        // The refiner works where the rows' tables were: they are over, and begin anew with every match.
+        const std::size_t rows_tables = arena.used();
         bench.refiner.lay_out(arena, scene);
+        arena.rewind(rows_tables);
+        scene.right_edges.lay_out(arena, scene.width, scene.height, scene.axis - 1);
+        bench.raw.lay_out(arena, scene, ColumnPaths::most_rows_at_once(window));
+        bench.paths.lay_out(arena, scene, workers);
     }
     for (int i = 0; i < workers; ++i) {
         Station measured;
@@ -54,7 +58,7 @@ void lay_out(Bench& bench, Arena& arena, const MatchOptions& options, int worker
         if (options.method == MatchMethod::kFast)
             station.fast.lay_out(arena, scene);
         else
-            station.costs.lay_out(arena, scene);
+            station.costs.lay_out(arena, scene, best ? &bench.raw : nullptr);
         if (options.method != MatchMethod::kPaper)
             station.scanline.lay_out(arena, scene);
         station.selector.lay_out(arena, scene);
