@@ -7,10 +7,12 @@
 #include "output_folder.h"
 
 #include "dicot/os/output_file.h"
+#include "dicot/os/shown_path.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -53,6 +55,19 @@ Result<TargetBox> box_of(const std::string& text)
     return box;
 }
 
+/// A table beside the pairs would tell the next run its distances.
+Status check_elsewhere(const std::string& csv, const std::string& folder)
+{
+    const std::filesystem::path parent = std::filesystem::path(csv).parent_path();
+    std::error_code none; // a folder that is not there is refused by whoever reads it
+    if (std::filesystem::equivalent(parent.empty() ? "." : parent, folder, none))
+        return failure(Fault::kUsage,
+                       "%s: the next run would take it for the table of distances: name a file outside "
+                       "of %s",
+                       shown_path(csv.c_str()), shown_path(folder.c_str()));
+    return {};
+}
+
 Status run(AccuracyWords words)
 {
     if (!words.box.empty())
@@ -61,6 +76,7 @@ Status run(AccuracyWords words)
     // Its files would be among the next run's inputs.
     TRY(check_distinct({words.depth.targets.folder}, {words.report}));
     if (!words.csv.empty()) {
+        TRY(check_elsewhere(words.csv, words.depth.targets.folder));
         OutputFile can_be_written;
         TRY(can_be_written.open(words.csv.c_str()));
     }

@@ -28,7 +28,7 @@ void MatchWords::add_all_but_threads_to(CLI::App& command)
     command
         .add_option("--method", method,
                     "paper: the published equations alone; standard: checked and refined; "
-                    "fast: a part of its time; best: twice its time")
+                    "fast: a little less exact, a seventh of its time; best: the most exact, twice its time")
         ->check(CLI::IsMember({"paper", "fast", "standard", "best"}))
         ->capture_default_str();
     command.add_option("--cost", cost, "matching cost: AD-Census, or truncated absolute differences")

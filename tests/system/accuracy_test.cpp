@@ -175,6 +175,8 @@ TEST(Accuracy, WhatCannotBeMeasuredIsNamed)
     refused(walls.words() + " --box 200,0,60,10", 64, "does not lie in");
     refused(walls.words() + " --far-mm 550", 64, "widen");
     refused(walls.words() + " --report " + walls.pairs, 64, "named twice");
+    refused(walls.words() + " -o " + walls.pairs + "/out.csv", 64, "table of distances");
+    refused(walls.words() + " --near-mm 900 --far-mm 700", 64, "makes no sense");
     walls.folder.write("walls/wall_600_left.ppm", test::FlatPair{.width = 120, .height = 80}.side(false));
     refused(walls.words(), 65, "a pair has one size");
     walls.folder.write("walls/wall_600_right.ppm", test::FlatPair{.width = 120, .height = 80}.side(true));

@@ -49,6 +49,21 @@ TEST(Arena, MeasuringArenaAsksForExactlyWhatARealOneGives)
     EXPECT_TRUE(small.overrun());
 }
 
+TEST(Arena, ANeedBeyondAllMemoryIsNotTakenForASmallOne)
+{
+    constexpr std::size_t kHalf = SIZE_MAX / 2 + 1;
+    alignas(Arena::kAlignment) std::array<std::byte, 8192> block{};
+    Arena measure, real{block};
+    for (Arena* const arena : {&measure, &real}) {
+        for (int i = 0; i < 2; ++i) // together 0, were they added as they are
+            EXPECT_TRUE(arena->take<std::byte>(kHalf).empty());
+        EXPECT_TRUE(arena->take<std::uint32_t>(kHalf).empty()) << "four times as many bytes are 0 too";
+        EXPECT_TRUE(arena->take<std::byte>(64).empty());
+        EXPECT_TRUE(arena->overrun());
+        EXPECT_GT(arena->peak(), kHalf);
+    }
+}
+
 Status fails()
 {
     return failure(Fault::kNoInput, "%s: no such file", "left.png");

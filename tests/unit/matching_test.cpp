@@ -246,7 +246,7 @@ TEST(Matcher, AnArenaThatIsTooSmallIsRefusedAndNotWritten)
 TEST(Matcher, FlatPicturesGiveNoValueUnlessTheyMustBeDense)
 {
     Pair pair{40, 20, std::vector<Rgb8>(800, Rgb8{90, 120, 60}), std::vector<Rgb8>(800, Rgb8{90, 120, 60})};
-    for (const MatchMethod method : {MatchMethod::kFast, MatchMethod::kStandard}) {
+    for (const MatchMethod method : {MatchMethod::kFast, MatchMethod::kStandard, MatchMethod::kBest}) {
         MatchOptions options = small_options();
         options.method = method;
         const Matched sparse(pair.left_view(), pair.right_view(), options);

@@ -62,7 +62,7 @@ public:
     /// The next calls of row() start a new band: any row may follow.
     void restart() { next_cost_row_ = -1; }
 
-    /// Aggregated costs of row y; rows of a band are asked for from top to bottom without gaps.
+    /// Aggregated costs of row y; rows of a band are asked for from top to bottom.
     AggregatedRow row(const Scene& scene, int y, MatchTimes& times, std::uint64_t (*now_ns)());
 
 private:

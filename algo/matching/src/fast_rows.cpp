@@ -8,9 +8,6 @@ namespace {
 
 /// Pixels of a row that are gathered at a time: their sums stay in the first-level cache.
 constexpr int kStrip = 32;
-/// Rows between two cells of the column. Neighbours of the column then share no row, and the costs hold together by
-/// the paths along the rows.
-constexpr int kRowStep = 2;
 
 std::size_t size_of(int a, int b, int c)
 {

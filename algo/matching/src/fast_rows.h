@@ -9,6 +9,10 @@ namespace dicot::matching {
 /// distance, which is longer than the straight one.
 inline constexpr double kLineReach = 1.5;
 
+/// Rows between two cells of the column. Neighbours of the column then share no row, and the costs hold together by
+/// the paths along the rows.
+inline constexpr int kRowStep = 2;
+
 /// A cell of a window: a pixel so many columns and rows from the centre, or one that does not count.
 struct WindowCell
 {

@@ -155,7 +155,8 @@ std::uint64_t Matcher::terms() const
 {
     const matching::Scene& scene = bench_->scene;
     const auto window = static_cast<std::uint64_t>(2 * scene.radius + 1);
-    const auto cells = options_.method == MatchMethod::kFast ? 2 * window : window * window;
+    const auto column = static_cast<std::uint64_t>(2 * (scene.radius / matching::kRowStep) + 1);
+    const auto cells = options_.method == MatchMethod::kFast ? window + column : window * window;
     return cells * static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height) *
            static_cast<std::uint64_t>(scene.disparities);
 }

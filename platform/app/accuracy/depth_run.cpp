@@ -59,13 +59,13 @@ Result<Bench> make_bench(const DepthWords& words, const std::vector<Target>& tar
                        shown_path(targets.front().left_path.c_str()), nearest, shown_path(words.rig.c_str()));
     run.range.near_mm = words.near_mm.value_or(std::min(rig.near_mm.value_or(nearest), (1 - kRoom) * nearest));
     run.range.far_mm = words.far_mm.value_or(std::max(rig.far_mm.value_or(farthest), (1 + kRoom) * farthest));
+    run.search = TRY(disparity_range(run.rig, run.range));
     if (nearest < run.range.near_mm || farthest > run.range.far_mm)
         return failure(Fault::kUsage,
                        "%s stands at %g mm, outside of the search from %g to %g mm: widen --near-mm or "
                        "--far-mm",
                        shown_path((nearest < run.range.near_mm ? targets.front() : targets.back()).left_path.c_str()),
                        nearest < run.range.near_mm ? nearest : farthest, run.range.near_mm, run.range.far_mm);
-    run.search = TRY(disparity_range(run.rig, run.range));
     bench.options = words.match.resolved();
     bench.options.min_disparity = run.search.min_disparity;
     bench.options.disparities = run.search.disparities;

@@ -84,9 +84,10 @@ void print_run(const DepthRun& run, const DepthWords& words)
     for (const LonePicture& lone : run.alone)
         std::printf("%-*s   left out: %s\n", column, lone.name.c_str(), lone.reason.c_str());
     std::printf("\n%s\n%s\n", summary_of(run).c_str(), sentence_of(run.trend, run.rig.focal_px).c_str());
-    std::printf("%d targets in %.1f s, method %s, search %.0f to %.0f mm; focal length %.1f px, baseline %.2f mm\n",
-                run.measured(), run.seconds, words.match.method.c_str(), run.range.near_mm, run.range.far_mm,
-                run.rig.focal_px, run.rig.baseline_mm);
+    std::printf(
+        "%d of %zu targets in %.1f s, method %s, search %.0f to %.0f mm; focal length %.1f px, baseline %.2f mm\n",
+        run.measured(), run.readings.size(), run.seconds, words.match.method.c_str(), run.range.near_mm,
+        run.range.far_mm, run.rig.focal_px, run.rig.baseline_mm);
 }
 
 nlohmann::json as_json(const DepthRun& run, const DepthWords& words)

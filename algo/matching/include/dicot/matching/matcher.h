@@ -87,8 +87,8 @@ public:
                        const MatchHooks& hooks = {});
 
     const MatchOptions& options() const { return options_; }
-    /// Products of eq. 13 that one match computes: window pixels (kFast: of a row and a
-    /// column) x pixels x disparities.
+    /// Products of eq. 13 that one match computes: window pixels x pixels x disparities. kFast: those of a row and of
+    /// every second row of a column; kBest: without its narrow window.
     std::uint64_t terms() const;
 
 private:

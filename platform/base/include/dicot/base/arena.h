@@ -13,7 +13,7 @@ namespace dicot {
 /// Whatever needs memory has one `lay_out(Arena&)` that asks for its pieces. Run on a *measuring* arena (no block
 /// behind it) it says how much it needs; run on a real one it gets it. So a prediction cannot drift from the use.
 /// Pieces are aligned to 64 bytes, are not constructed, and are empty spans when the arena is too small: `overrun()`
-/// tells, and the caller refuses to start.
+/// tells, and the caller refuses to start. A need beyond all memory is counted as all of it.
 class Arena
 {
 public:
@@ -29,7 +29,9 @@ public:
     {
         static_assert(std::is_trivially_destructible_v<T> && alignof(T) <= kAlignment);
         const std::size_t start = used_;
-        used_ += (count * sizeof(T) + kAlignment - 1) / kAlignment * kAlignment;
+        used_ = count > (kAll - used_) / sizeof(T)
+                    ? kAll
+                    : start + (count * sizeof(T) + kAlignment - 1) / kAlignment * kAlignment;
         if (used_ > peak_)
             peak_ = used_;
         if (used_ > block_.size())
@@ -47,6 +49,9 @@ public:
     void rewind(std::size_t mark) noexcept { used_ = mark; }
 
 private:
+    /// Where counting ends: no block is as large, whatever the word size.
+    static constexpr std::size_t kAll = SIZE_MAX / kAlignment * kAlignment;
+
     std::span<std::byte> block_{};
     std::size_t used_ = 0;
     std::size_t peak_ = 0;
