@@ -103,7 +103,7 @@ TEST(Matcher, FastMatchesWithTheSmallestWindowsAndEveryWindowBetweenPairs)
     }
 }
 
-TEST(Matcher, FastTakesNoMoreMemoryThanStandardAndBestAtMostATwentiethMore)
+TEST(Matcher, FastTakesNoMoreMemoryThanStandardAndBestAtMostATenthMore)
 {
     struct Size
     {
@@ -119,7 +119,7 @@ TEST(Matcher, FastTakesNoMoreMemoryThanStandardAndBestAtMostATwentiethMore)
             return measure.peak();
         };
         EXPECT_LE(need(MatchMethod::kFast), need(MatchMethod::kStandard)) << size.width;
-        EXPECT_LE(need(MatchMethod::kBest), need(MatchMethod::kStandard) / 20 * 21) << size.width;
+        EXPECT_LE(need(MatchMethod::kBest), need(MatchMethod::kStandard) / 10 * 11) << size.width;
     }
 }
 
