@@ -151,12 +151,9 @@ TEST(ColumnPaths, AreTheMeanOfBothWaysWhateverTheWorkers)
         ASSERT_FALSE(stage.arena.overrun());
         for (int y = 0; y < kHeight; ++y)
             std::ranges::copy(costs[static_cast<std::size_t>(y)], paths.costs(scene, y).begin());
-        for (int chunk = 0; chunk < 2; ++chunk) {
+        for (int chunk = 0; chunk < 2; ++chunk)
             for (int worker = 0; worker < workers; ++worker)
                 paths.walk(scene, chunk, worker, workers);
-            for (int y = chunk * ColumnPaths::kChunk; y < (chunk + 1) * ColumnPaths::kChunk; ++y)
-                paths.join(scene, y);
-        }
         for (int x = 0; x < kWidth; ++x) {
             const auto down = plain_paths(scene, costs, x, 0, kHeight - 1);
             const auto up = plain_paths(scene, costs, x, kHeight - 1, 0);

@@ -103,7 +103,7 @@ TEST(Matcher, FastMatchesWithTheSmallestWindowsAndEveryWindowBetweenPairs)
     }
 }
 
-TEST(Matcher, FastTakesNoMoreMemoryThanStandard)
+TEST(Matcher, FastTakesNoMoreMemoryThanStandardAndBestAtMostATwentiethMore)
 {
     struct Size
     {
@@ -119,6 +119,7 @@ TEST(Matcher, FastTakesNoMoreMemoryThanStandard)
             return measure.peak();
         };
         EXPECT_LE(need(MatchMethod::kFast), need(MatchMethod::kStandard)) << size.width;
+        EXPECT_LE(need(MatchMethod::kBest), need(MatchMethod::kStandard) / 20 * 21) << size.width;
     }
 }
 
@@ -197,27 +198,35 @@ INSTANTIATE_TEST_SUITE_P(Variants, SameBytes,
                                            Variant{"MoreWorkersThanRows", 50, 0, false}),
                          [](const auto& tested) { return tested.param.name; });
 
-TEST(Matcher, ASecondPairIsNotTouchedByTheFirst)
+TEST(Matcher, ASecondPairIsNotTouchedByTheFirstNorByWhatTheMemoryHeld)
 {
-    const Pair first = scene(64, 32, 3, 9, 1);
-    const Pair second = scene(64, 32, 6, 12, 2);
-    for (const MatchMethod method : {MatchMethod::kStandard, MatchMethod::kBest}) {
-        MatchOptions options = small_options();
-        options.method = method;
-        Arena measure;
-        ASSERT_TRUE(Matcher::make(64, 32, options, kScalarKernels, 1, measure).ok());
-        std::vector<std::byte> block(measure.peak() + Arena::kAlignment);
-        void* start = block.data();
-        std::size_t space = block.size();
-        ASSERT_NE(std::align(Arena::kAlignment, measure.peak(), start, space), nullptr);
-        Arena arena({static_cast<std::byte*>(start), measure.peak()});
-        Result<Matcher> matcher = Matcher::make(64, 32, options, kScalarKernels, 1, arena);
-        ASSERT_TRUE(matcher.ok()) << matcher.status().message();
-        Alone crew;
-        (void)matcher.value().match(first.left_view(), first.right_view(), crew);
-        const MatchOutcome again = matcher.value().match(second.left_view(), second.right_view(), crew);
-        const Matched fresh(second.left_view(), second.right_view(), options, &kScalarKernels, 1);
-        EXPECT_TRUE(same_bytes(again.map, fresh.map()));
+    // High, and of few disparities: what lives after the rows is larger than all of their tables.
+    constexpr int kWidth = 61, kHeight = 120;
+    const Pair first = scene(kWidth, kHeight, 1, 4, 1);
+    const Pair second = scene(kWidth, kHeight, 3, 6, 2);
+    for (const MatchMethod method :
+         {MatchMethod::kPaper, MatchMethod::kFast, MatchMethod::kStandard, MatchMethod::kBest}) {
+        for (const bool dense : {false, true}) {
+            MatchOptions options = small_options();
+            options.method = method;
+            options.dense = dense;
+            options.disparities = 8;
+            Arena measure;
+            ASSERT_TRUE(Matcher::make(kWidth, kHeight, options, kScalarKernels, 2, measure).ok());
+            std::vector<std::byte> block(measure.peak() + Arena::kAlignment, std::byte{0xA5});
+            void* start = block.data();
+            std::size_t space = block.size();
+            ASSERT_NE(std::align(Arena::kAlignment, measure.peak(), start, space), nullptr);
+            Arena arena({static_cast<std::byte*>(start), measure.peak()});
+            Result<Matcher> matcher = Matcher::make(kWidth, kHeight, options, kScalarKernels, 2, arena);
+            ASSERT_TRUE(matcher.ok()) << matcher.status().message();
+            Alone crew;
+            for (const Pair* pair : {&first, &second, &first}) {
+                const MatchOutcome outcome = matcher.value().match(pair->left_view(), pair->right_view(), crew);
+                const Matched fresh(pair->left_view(), pair->right_view(), options, &kScalarKernels, 1);
+                EXPECT_TRUE(same_bytes(outcome.map, fresh.map())) << static_cast<int>(method) << ", " << dense;
+            }
+        }
     }
 }
 

@@ -33,6 +33,7 @@ struct Bench
     Maps maps;
     ColourWeights voters;            ///< how much neighbours count when kBest fills: colours may differ more
     std::span<std::uint8_t> columns; ///< scratch of kBest, one entry a column
+    RawCosts raw;                    ///< of kBest
     ColumnPaths paths;               ///< of kBest
     SurfaceRefiner refiner;          ///< of kBest
     std::span<Station> stations;

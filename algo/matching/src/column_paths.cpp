@@ -18,10 +18,9 @@ void ColumnPaths::lay_out(Arena& arena, const Scene& scene, int workers)
 {
     const std::size_t row = size_of(scene.width, scene.axis);
     ring_ = arena.take<std::uint16_t>(row * (kChunk + kAhead));
-    paths_ = arena.take<std::uint16_t>(row * kChunk);
     behind_ = arena.take<std::uint16_t>(row);
     least_ = arena.take<std::uint16_t>(static_cast<std::size_t>(scene.width));
-    scratch_ = arena.take<std::uint16_t>(4 * size_of(workers, scene.axis));
+    scratch_ = arena.take<std::uint16_t>(kScratch * size_of(workers, scene.axis));
 }
 
 std::span<std::uint16_t> ColumnPaths::costs(const Scene& scene, int y)
@@ -41,12 +40,12 @@ void ColumnPaths::walk(const Scene& scene, int chunk, int worker, int workers)
     const int end = std::min(top + kChunk, scene.height);
     const int first = scene.axis - scene.disparities;
     const auto axis = static_cast<std::size_t>(scene.axis);
-    std::uint16_t* const start = scratch_.data() + 4 * size_of(worker, scene.axis);
+    std::uint16_t* const start = scratch_.data() + kScratch * size_of(worker, scene.axis);
     begin_path({start, axis}, first);
     const TwoSidedStep two_sided{scene, kBestColumnSteps, start + 3 * axis};
+    const auto upwards = [&](int y) { return start + 4 * axis + size_of(y - top, scene.axis); };
     for (int x = scene.width * worker / workers; x < scene.width * (worker + 1) / workers; ++x) {
         const std::size_t column = size_of(x, scene.axis);
-        const auto path_of = [&](int y) { return &paths_[size_of(y - top, scene.width) * axis + column]; };
         // The step to row y from row y - way. A first step from outside the picture pays for nothing.
         const auto step = [&](int y, int way, const std::uint16_t* behind, std::uint16_t least, std::uint16_t* ahead) {
             const bool edge = colour_edge(scene.left.lab(y), x, scene.left.lab(y - way), x, kBestEdge);
@@ -58,7 +57,7 @@ void ColumnPaths::walk(const Scene& scene, int chunk, int worker, int workers)
         const std::uint16_t* behind = start;
         std::uint16_t least = 0;
         for (int y = end_of_costs(scene, chunk); y-- > top; std::swap(ahead, spare)) {
-            std::uint16_t* const to = y < end ? path_of(y) : ahead;
+            std::uint16_t* const to = y < end ? upwards(y) : ahead;
             least = step(y, -1, behind, least, to);
             behind = to;
         }
@@ -66,22 +65,16 @@ void ColumnPaths::walk(const Scene& scene, int chunk, int worker, int workers)
         least = top == 0 ? std::uint16_t{0} : least_[static_cast<std::size_t>(x)];
         for (int y = top; y < end; ++y, std::swap(ahead, spare)) {
             least = step(y, 1, behind, least, ahead);
-            std::uint16_t* const both = path_of(y);
+            // No path comes this way again.
+            std::uint16_t* const both = costs(scene, y).data() + column;
+            const std::uint16_t* const up = upwards(y);
             for (std::size_t r = 0; r < axis; ++r)
-                both[r] = mean_of(both[r], ahead[r]);
+                both[r] = both[r] == kNoCandidate ? kNoCandidate : mean_of(up[r], ahead[r]);
             behind = ahead;
         }
         std::copy_n(behind, axis, &behind_[column]);
         least_[static_cast<std::size_t>(x)] = least;
     }
-}
-
-void ColumnPaths::join(const Scene& scene, int y)
-{
-    const std::span<std::uint16_t> row = costs(scene, y);
-    const std::uint16_t* const paths = &paths_[static_cast<std::size_t>(y % kChunk) * row.size()];
-    for (std::size_t i = 0; i < row.size(); ++i)
-        row[i] = row[i] == kNoCandidate ? kNoCandidate : paths[i];
 }
 
 } // namespace dicot::matching

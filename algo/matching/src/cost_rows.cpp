@@ -34,14 +34,15 @@ struct CostRows::GroupRows
     bool low_in, high_in;        ///< inside the window and inside the picture
 };
 
-void CostRows::lay_out(Arena& arena, const Scene& scene)
+void CostRows::lay_out(Arena& arena, const Scene& scene, const RawCosts* shared)
 {
     columns_ = 2 * scene.radius + 1;
-    groups_ = scene.radius + 1;
+    shared_ = shared;
+    if (!shared)
+        own_.lay_out(arena, scene, columns_);
+    groups_ = raw().groups();
     // An odd number of cache lines, so that the columns of a group do not fall on the same cache sets.
     right_stride_ = ((kStrip + scene.axis - 1 + 15) / 16 | 1) * 16;
-    cost_width_ = scene.width + 2 * scene.radius;
-    costs_ = arena.take<PairU16>(size_of(groups_, cost_width_, scene.axis));
     left_ = arena.take<PairU16>(size_of(groups_, columns_, kStrip));
     right_ = arena.take<PairU16>(size_of(groups_, columns_, right_stride_));
     numerator_ = arena.take<std::uint32_t>(size_of(1, kStrip, scene.axis));
@@ -51,21 +52,16 @@ void CostRows::lay_out(Arena& arena, const Scene& scene)
         near_row_ = arena.take<std::uint16_t>(size_of(1, 1, scene.axis));
         near_.lay_out(arena, scene);
     }
-    std::fill(costs_.begin(), costs_.end(), PairU16{0, 0});
+    clear();
+}
+
+void CostRows::clear()
+{
+    own_.clear();
+    near_.clear();
     std::fill(left_.begin(), left_.end(), PairU16{0, 0});
     std::fill(right_.begin(), right_.end(), PairU16{0, 0});
     restart();
-}
-
-void CostRows::raw_costs(const Scene& scene, int y)
-{
-    const int slot = y % (2 * groups_);
-    PairU16* row = costs_.data() + size_of(slot / 2, cost_width_, scene.axis) + size_of(1, scene.radius, scene.axis);
-    std::uint16_t* half = slot % 2 == 0 ? &row->low : &row->high;
-    CostRow right = scene.right.cost(y);
-    const int back = scene.axis - 1;
-    right = {right.red - back, right.green - back, right.blue - back, right.census - back};
-    scene.kernels->match_cost(half, scene.width, scene.axis, scene.left.cost(y), right, scene.costs);
 }
 
 CostRows::GroupRows CostRows::rows_of_group(const Scene& scene, int y, int group) const
@@ -145,7 +141,7 @@ void CostRows::aggregate(const Scene& scene, int y, int x0, int count)
         AggregateStrip strip{};
         strip.left_weights = left_.data() + size_of(g, columns_, kStrip);
         strip.right_weights = right_.data() + size_of(g, columns_, right_stride_);
-        strip.costs = costs_.data() + size_of(g, cost_width_, scene.axis) + size_of(1, x0, scene.axis);
+        strip.costs = raw().group(scene, g, x0 - scene.radius);
         strip.numerator = numerator_.data();
         strip.denominator = denominator_.data();
         strip.left_stride = kStrip;
@@ -175,8 +171,7 @@ void CostRows::mix_near(const Scene& scene, int y, int x0, int count)
 {
     std::fill(numerator_.begin(), numerator_.end(), 0u);
     std::fill(denominator_.begin(), denominator_.end(), 0u);
-    near_.aggregate(scene, y, x0, count, {costs_.data(), groups_, cost_width_, scene.radius}, numerator_.data(),
-                    denominator_.data());
+    near_.aggregate(scene, y, x0, count, raw(), numerator_.data(), denominator_.data());
     for (int i = 0; i < count; ++i) {
         const auto [first, last] = candidates_of(scene, x0 + i);
         if (last < first)
@@ -200,12 +195,14 @@ AggregatedRow CostRows::row(const Scene& scene, int y, MatchTimes& times, std::u
         since = now;
     };
 
-    const int last = std::min(y + scene.radius, scene.height - 1);
-    if (next_cost_row_ < 0)
-        next_cost_row_ = std::max(y - scene.radius, 0);
-    for (; next_cost_row_ <= last; ++next_cost_row_)
-        raw_costs(scene, next_cost_row_);
-    lap(times.cost);
+    if (!shared_) {
+        const int last = std::min(y + scene.radius, scene.height - 1);
+        if (next_cost_row_ < 0)
+            next_cost_row_ = std::max(y - scene.radius, 0);
+        for (; next_cost_row_ <= last; ++next_cost_row_)
+            own_.make(scene, next_cost_row_);
+        lap(times.cost);
+    }
 
     const int overlap = scene.axis - 1;
     for (int x0 = 0; x0 < scene.width; x0 += kStrip) {

@@ -7,6 +7,7 @@
 #include "edges.h"
 #include "near_window.h"
 #include "planes.h"
+#include "raw_costs.h"
 #include "tables.h"
 
 #include <span>
@@ -48,11 +49,15 @@ inline LabRow moved(LabRow row, int columns)
     return {row.la + columns, row.b + columns};
 }
 
-/// One worker's tables: a ring of raw costs as high as the window, and the support weights of a strip of pixels.
+/// One worker's tables: raw costs of as many rows as the window has, and the support weights of a strip of pixels.
 class CostRows
 {
 public:
-    void lay_out(Arena& arena, const Scene& scene);
+    /// Without raw costs of its own where all workers share them: the caller makes those, all that row() reads.
+    void lay_out(Arena& arena, const Scene& scene, const RawCosts* shared = nullptr);
+
+    /// As lay_out left it, after its memory has served something else.
+    void clear();
 
     /// The next calls of row() start a new band: any row may follow.
     void restart() { next_cost_row_ = -1; }
@@ -62,7 +67,7 @@ public:
 
 private:
     struct GroupRows;
-    void raw_costs(const Scene& scene, int y);
+    const RawCosts& raw() const { return shared_ ? *shared_ : own_; }
     GroupRows rows_of_group(const Scene& scene, int y, int group) const;
     void left_weights(const Scene& scene, int y, int x0, int count);
     void right_weights(const Scene& scene, int y, int first, int count, int at);
@@ -73,9 +78,9 @@ private:
     int groups_ = 0;
     int columns_ = 0;
     int right_stride_ = 0;
-    int cost_width_ = 0;
     int next_cost_row_ = -1;
-    std::span<PairU16> costs_;                         ///< [groups][width + 2 radius][axis]
+    const RawCosts* shared_ = nullptr;
+    RawCosts own_;
     std::span<PairU16> left_;                          ///< [groups][columns][kStrip]
     std::span<PairU16> right_;                         ///< [groups][columns][right_stride]
     std::span<std::uint32_t> numerator_, denominator_; ///< [kStrip][axis]

@@ -15,9 +15,6 @@ namespace matching {
 
 namespace {
 
-/// How far refining moves what a dense map is filled from, 1/256 px: rims that follow the wrong surface would spread.
-/// (Without filling, slanted leaves gain more from free moves than rims lose.)
-constexpr int kHalfPx = 128;
 /// The voters' gamma, in those of the support weights.
 constexpr double kVotersGamma = 1.5;
 
@@ -47,9 +44,13 @@ void lay_out(Bench& bench, Arena& arena, const MatchOptions& options, int worker
         bench.maps.scratch = take_map<DispQ8>(arena, scene.width, scene.height);
     if (best) {
         bench.columns = arena.take<std::uint8_t>(static_cast<std::size_t>(scene.width));
-        scene.right_edges.lay_out(arena, scene.width, scene.height, scene.axis - 1);
-        bench.paths.lay_out(arena, scene, workers);
+        // The refiner works where the rows' tables were: they are over, and begin anew with every match.
+        const std::size_t rows_tables = arena.used();
         bench.refiner.lay_out(arena, scene);
+        arena.rewind(rows_tables);
+        scene.right_edges.lay_out(arena, scene.width, scene.height, scene.axis - 1);
+        bench.raw.lay_out(arena, scene, ColumnPaths::most_rows_at_once(window));
+        bench.paths.lay_out(arena, scene, workers);
     }
     for (int i = 0; i < workers; ++i) {
         Station measured;
@@ -57,7 +58,7 @@ void lay_out(Bench& bench, Arena& arena, const MatchOptions& options, int worker
         if (options.method == MatchMethod::kFast)
             station.fast.lay_out(arena, scene);
         else
-            station.costs.lay_out(arena, scene);
+            station.costs.lay_out(arena, scene, best ? &bench.raw : nullptr);
         if (options.method != MatchMethod::kPaper)
             station.scanline.lay_out(arena, scene);
         station.selector.lay_out(arena, scene);
@@ -195,7 +196,7 @@ MatchOutcome Matcher::match(ImageView<const Rgb8> left, ImageView<const Rgb8> ri
     if (best || !options_.dense)
         drop_unmatched(bench.maps);
     if (best)
-        bench.refiner.refine(scene, bench.maps.disparity, options_.dense ? kHalfPx : kDispMissing, crew);
+        bench.refiner.refine(scene, bench.maps, options_.dense, crew);
     if (options_.dense && best) {
         take_majorities(bench.maps, scene.disparities, scene.left, bench.voters, crew);
         fill_along_planes(bench.maps, scene.disparities, scene.left, bench.voters, crew);

@@ -36,11 +36,15 @@ void NearWindow::lay_out(Arena& arena, const Scene& scene)
     right_spatial_ = arena.take<std::uint16_t>(size_of(kColumns, kColumns));
     left_ = arena.take<PairU16>(size_of(kColumns, kStrip));
     right_ = arena.take<PairU16>(size_of(kGroups, kColumns) * static_cast<std::size_t>(right_stride_));
-    if (!arena.measuring())
+}
+
+void NearWindow::clear()
+{
+    if (!left_spatial_.empty())
         fill_spatial_weights(left_spatial_.data(), right_spatial_.data(), kRadius, kReach);
 }
 
-void NearWindow::aggregate(const Scene& scene, int y, int x0, int count, const CostRing& ring, std::uint32_t* numerator,
+void NearWindow::aggregate(const Scene& scene, int y, int x0, int count, const RawCosts& raw, std::uint32_t* numerator,
                            std::uint32_t* denominator)
 {
     // The first strip of a row makes all right positions that it needs; the others keep those that they share.
@@ -75,12 +79,11 @@ void NearWindow::aggregate(const Scene& scene, int y, int x0, int count, const C
                                            rows_of(scene.right, first, low + 1, high_in), scene.colour.table,
                                            spatial_pair(right_spatial_, low_window, low_in, high_in, c));
         }
-        const int group = low % (2 * ring.groups) / 2;
+        const int group = low % (2 * raw.groups()) / 2;
         AggregateStrip strip{};
         strip.left_weights = left_.data();
         strip.right_weights = right;
-        strip.costs = ring.costs + (size_of(group, ring.width) + static_cast<std::size_t>(ring.margin - kRadius + x0)) *
-                                       static_cast<std::size_t>(scene.axis);
+        strip.costs = raw.group(scene, group, x0 - kRadius);
         strip.numerator = numerator;
         strip.denominator = denominator;
         strip.left_stride = kStrip;

@@ -8,16 +8,8 @@
 
 namespace dicot::matching {
 
+class RawCosts;
 struct Scene;
-
-/// Raw costs of the rows around the one being matched: row y of the picture in slot y mod (2 groups).
-struct CostRing
-{
-    const PairU16* costs; ///< [groups][width][axis]; pixel x is column `margin` + x
-    int groups;
-    int width;
-    int margin;
-};
 
 /// Eq. 13 over a window of 7 x 7 px. On a surface that slants the wide window mixes disparities and prefers
 /// whole ones; a narrow one does less of it, and sees leaves that are thinner than the wide one.
@@ -29,12 +21,13 @@ public:
     /// short enough for a group's tables and costs to stay in a 48 KiB first-level cache.
     static constexpr int kStrip = 32;
 
-    /// Fills its spatial weights unless `arena` only counts.
     void lay_out(Arena& arena, const Scene& scene);
+    /// Fills its spatial weights, where it has any: to be done before the first strip.
+    void clear();
 
     /// Adds the sums of pixels x0 .. x0 + count - 1 of row y, count at most kStrip, to [count][axis]. Strips of a row
     /// are asked for from left to right, each but the last as long as the strip.
-    void aggregate(const Scene& scene, int y, int x0, int count, const CostRing& ring, std::uint32_t* numerator,
+    void aggregate(const Scene& scene, int y, int x0, int count, const RawCosts& raw, std::uint32_t* numerator,
                    std::uint32_t* denominator);
 
 private:

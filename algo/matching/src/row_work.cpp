@@ -51,11 +51,21 @@ void RowWork::match_chunks(Crew& crew)
 {
     const Scene& scene = bench_.scene;
     ColumnPaths& paths = bench_.paths;
-    for (int worker = 0; worker < workers_; ++worker)
-        station(worker).costs.restart();
+    crew.run(workers_, [&](int worker) { station(worker).costs.clear(); });
+    bench_.raw.clear();
     int made = 0;
+    int raw_made = 0;
     for (int chunk = 0; chunk * ColumnPaths::kChunk < scene.height; ++chunk) {
         const int end = paths.end_of_costs(scene, chunk);
+        const int raw_end = std::min(end + scene.radius, scene.height);
+        crew.run(workers_, [&](int worker) {
+            const std::uint64_t since = clock();
+            for (int y = raw_made; y < raw_end; ++y)
+                if (y / 2 % workers_ == worker)
+                    bench_.raw.make(scene, y);
+            station(worker).times.cost += clock() - since;
+        });
+        raw_made = raw_end;
         crew.run(workers_, [&](int worker) {
             Station& mine = station(worker);
             for (int y = made + worker; y < end; y += workers_) {
@@ -78,10 +88,8 @@ void RowWork::match_chunks(Crew& crew)
         timed([&](int worker) {
             Station& mine = station(worker);
             const int top = chunk * ColumnPaths::kChunk;
-            for (int y = top + worker; y < std::min(top + ColumnPaths::kChunk, scene.height); y += workers_) {
-                paths.join(scene, y);
+            for (int y = top + worker; y < std::min(top + ColumnPaths::kChunk, scene.height); y += workers_)
                 select(y, mine, paths.costs(scene, y));
-            }
         });
     }
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdlib>
 #include <utility>
 
@@ -15,6 +16,9 @@ constexpr int kOnePx = 1 << kSlopeBits;
 /// Neighbours farther from the plane than this are of another surface; wider in the first fit, which knows no slope.
 constexpr int kSameSurface = kOnePx;
 constexpr int kSameSurfaceAtFirst = 3 * kOnePx / 2;
+/// In dense maps, what would end farther from the winner, 1/256 px, stays where it was: rims that follow the wrong
+/// surface would spread. (Without filling, slanted leaves gain more from free moves than rims lose.)
+constexpr int kFarthestWhenDense = 128;
 /// A round moves a pixel by no more.
 constexpr int kLongestStep = kOnePx / 2;
 /// Where the pictures differ by more, 40 grey levels, they do not show the same.
@@ -81,7 +85,7 @@ int cubic(const std::int16_t* p, int t)
 /// two factors is below 2^42, products of two sums below 2^55.
 struct ShiftSums
 {
-    std::int64_t one = 0, gradient = 0, difference = 0, squares = 0, products = 0;
+    std::int64_t one = 0, gradient = 0, difference = 0, squares = 0, products = 0, power = 0;
 
     void add(std::int64_t weight, int difference_here, int gradient_here)
     {
@@ -90,12 +94,52 @@ struct ShiftSums
         difference += weight * difference_here;
         squares += weight * gradient_here * gradient_here;
         products += weight * difference_here * gradient_here;
+        power += weight * difference_here * difference_here;
     }
+
+    /// How much the differences scatter, (1/16 grey level)^2.
+    std::int64_t variance() const { return power / one - (difference / one) * (difference / one); }
 };
 /// (grey level / px)^2 with the full weight, in units of `squares`.
 constexpr std::int64_t kSquareUnit = std::int64_t{64 * 64} * 128;
 /// Noise has gradients too: this much is none.
 constexpr std::int64_t kNoTexture = 30 * kSquareUnit;
+
+/// Of which nobody can say how good it is.
+constexpr std::int16_t kHopeless = INT16_MAX;
+/// With more doubt there is no value, and with kRange less there is none. In 1/256, as all doubt.
+constexpr int kMostDoubt = 282;
+constexpr int kRange = 8 * 256;
+
+/// log2, 8 fraction bits, straight between powers of two; x >= 1.
+int log2_q8(std::uint64_t x)
+{
+    const int exponent = static_cast<int>(std::bit_width(x)) - 1;
+    return (exponent << 8) + static_cast<int>((x << 8 >> exponent) & 255);
+}
+
+/// A shift is doubtful where the pictures differ at it and where there is little texture to tell.
+std::int16_t doubt_of_shift(std::int64_t variance, int texture)
+{
+    constexpr int kOne = 256;         // (1/16 grey level)^2 in 1 grey level^2
+    constexpr int kTextureShare = 27; // of 64
+    const int differs = log2_q8(static_cast<std::uint64_t>(std::max<std::int64_t>(variance, 0) + kOne)) - (8 << 8);
+    const int tells = log2_q8(static_cast<std::uint64_t>(texture + 5));
+    return static_cast<std::int16_t>(differs - tells * kTextureShare / 64);
+}
+
+/// A plane is doubtful where few of the neighbours asked are on it, and where those are not quite.
+int doubt_of_plane(std::int64_t agreed, std::int64_t asked, std::int64_t deviation)
+{
+    constexpr int kAlone = 922;  // 3.6 for all
+    constexpr int kUneven = 742; // 2.9 a px
+    return static_cast<int>(deviation * kUneven / kOnePx - agreed * kAlone / asked);
+}
+
+std::uint8_t confidence_of(std::int16_t doubt)
+{
+    return static_cast<std::uint8_t>(doubt == kHopeless ? 0 : std::clamp((kMostDoubt - doubt) * 255 / kRange, 0, 255));
+}
 
 template <typename Pixel>
 ImageView<Pixel> take_plane(Arena& arena, const Scene& scene)
@@ -109,7 +153,7 @@ ImageView<Pixel> take_plane(Arena& arena, const Scene& scene)
 
 void SurfaceRefiner::lay_out(Arena& arena, const Scene& scene)
 {
-    for (ImageView<std::int16_t>* plane : {&left_, &right_, &difference_, &gradient_})
+    for (ImageView<std::int16_t>* plane : {&left_, &right_, &difference_, &gradient_, &doubt_})
         *plane = take_plane<std::int16_t>(arena, scene);
     texture_ = take_plane<std::uint16_t>(arena, scene);
     slopes_ = take_plane<Slope>(arena, scene);
@@ -174,6 +218,7 @@ void SurfaceRefiner::shift_row(const Scene& scene, int y)
             const Slope own = slopes_.row(y)[x];
             next_.row(y)[x] = own;
             texture_.row(y)[x] = 0;
+            doubt_.row(y)[x] = kHopeless;
             if (own.disparity == kNoSlope)
                 continue;
             ShiftSums sums;
@@ -195,6 +240,7 @@ void SurfaceRefiner::shift_row(const Scene& scene, int y)
                 static_cast<std::int32_t>(std::clamp<std::int64_t>(step, -kLongestStep, kLongestStep));
             texture_.row(y)[x] =
                 static_cast<std::uint16_t>(std::min<std::int64_t>(squares / kSquareUnit + 1, PlaneSums::kMostWeight));
+            doubt_.row(y)[x] = doubt_of_shift(sums.variance(), texture_.row(y)[x]);
         }
     }
 }
@@ -213,17 +259,28 @@ void SurfaceRefiner::fit_row(const Scene& scene, int y, int same_surface)
             if (own.disparity == kNoSlope)
                 continue;
             PlaneSums sums;
+            std::int64_t asked = 0, agreed = 0, deviation = 0;
             window.visit(i, [&](int weight, int dx, int dy) {
+                asked += weight;
                 const std::int32_t disparity = slopes_.row(y + dy)[x + dx].disparity;
                 const int texture = texture_.row(y + dy)[x + dx];
                 if (disparity == kNoSlope || texture == 0)
                     return;
                 const int rise = disparity - own.disparity;
-                if (std::abs(rise - own.across * dx - own.down * dy) <= same_surface)
-                    sums.add(std::int64_t{weight} * texture, dx, dy, rise);
+                const int off = std::abs(rise - own.across * dx - own.down * dy);
+                if (off > same_surface)
+                    return;
+                sums.add(std::int64_t{weight} * texture, dx, dy, rise);
+                agreed += weight;
+                deviation += std::int64_t{weight} * texture * off;
             });
-            if (sums.one == 0)
+            if (sums.one == 0) {
+                doubt_.row(y)[x] = kHopeless;
                 continue;
+            }
+            if (doubt_.row(y)[x] != kHopeless)
+                doubt_.row(y)[x] =
+                    static_cast<std::int16_t>(doubt_.row(y)[x] + doubt_of_plane(agreed, asked, deviation / sums.one));
             const PlaneSums::Plane plane = sums.plane();
             if (std::abs(plane.centre) >= kOnePx)
                 continue;
@@ -239,14 +296,15 @@ void SurfaceRefiner::fit_planes(const Scene& scene, Crew& crew, int same_surface
     std::swap(slopes_, next_);
 }
 
-void SurfaceRefiner::refine(const Scene& scene, ImageView<DispQ8> disparity, int farthest, Crew& crew)
+void SurfaceRefiner::refine(const Scene& scene, const Maps& maps, bool dense, Crew& crew)
 {
     constexpr int kMoreBits = kSlopeBits - kDispFractionBits;
     crew.run(scene.height, [&](int y) {
         for (int x = 0; x < scene.width; ++x) {
-            const DispQ8 d = disparity.row(y)[x];
+            const DispQ8 d = maps.disparity.row(y)[x];
             slopes_.row(y)[x] = {d == kDispMissing ? kNoSlope : d << kMoreBits, 0, 0};
             texture_.row(y)[x] = 1;
+            doubt_.row(y)[x] = 0;
         }
     });
     read_brightness(scene, crew);
@@ -264,10 +322,14 @@ void SurfaceRefiner::refine(const Scene& scene, ImageView<DispQ8> disparity, int
             const std::int32_t d = slopes_.row(y)[x].disparity;
             if (d == kNoSlope)
                 continue;
-            DispQ8& was = disparity.row(y)[x];
+            DispQ8& was = maps.disparity.row(y)[x];
             const int is = std::clamp((d + (1 << (kMoreBits - 1))) >> kMoreBits, 0, most);
-            if (std::abs(is - was) <= farthest)
+            if (!dense || std::abs(is - was) <= kFarthestWhenDense)
                 was = static_cast<DispQ8>(is);
+            const std::uint8_t sure = confidence_of(doubt_.row(y)[x]);
+            maps.confidence.row(y)[x] = dense ? std::max<std::uint8_t>(sure, 1) : sure;
+            if (!dense && sure == 0)
+                was = kDispMissing;
         }
     });
 }

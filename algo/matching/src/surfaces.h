@@ -34,9 +34,10 @@ public:
     /// Memory for pictures of the scene's size. What it holds lives only during refine().
     void lay_out(Arena& arena, const Scene& scene);
 
-    /// Moves every disparity that is not missing; which are missing stays. What would end farther than `farthest`, in
-    /// 1/256 px, from where it was has followed another surface and stays too.
-    void refine(const Scene& scene, ImageView<DispQ8> disparity, int farthest, Crew& crew);
+    /// Moves every disparity that is not missing and gives it a confidence: 255 where the pictures agree, there is
+    /// texture to tell, and the neighbours lie on the same plane. Without `dense`, what deserves none loses its
+    /// disparity; with it, nothing does, and nothing moves by more than half a pixel.
+    void refine(const Scene& scene, const Maps& maps, bool dense, Crew& crew);
 
 private:
     void read_brightness(const Scene& scene, Crew& crew);
@@ -48,6 +49,7 @@ private:
     ImageView<std::int16_t> left_, right_;          ///< brightness, 1/16 grey level
     ImageView<std::int16_t> difference_, gradient_; ///< left minus right at the disparity; 64 x grey levels a px
     ImageView<std::uint16_t> texture_;              ///< what a pixel's neighbourhood tells about it
+    ImageView<std::int16_t> doubt_;                 ///< logarithm of what speaks against a disparity, 1/256
     ImageView<Slope> slopes_, next_;
 };
 
