@@ -15,6 +15,9 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
+
+#include <unistd.h>
 
 namespace dicot::app {
 namespace {
@@ -80,7 +83,14 @@ Status run(AccuracyWords words)
         OutputFile can_be_written;
         TRY(can_be_written.open(words.csv.c_str()));
     }
-    const DepthRun found = TRY(run_depths(words.depth));
+    std::error_code none;
+    const bool makes_report = !words.report.empty() && !std::filesystem::exists(words.report, none);
+    if (!words.report.empty())
+        TRY(make_folder(words.report)); // now rather than after minutes
+    Result<DepthRun> outcome = run_depths(words.depth);
+    if (!outcome.ok() && makes_report)
+        (void)::rmdir(words.report.c_str());
+    const DepthRun found = TRY(std::move(outcome));
     if (!words.csv.empty()) {
         const std::string text = as_csv(found);
         OutputFile file;

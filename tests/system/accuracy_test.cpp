@@ -171,6 +171,10 @@ TEST(Accuracy, WhatCannotBeMeasuredIsNamed)
     const std::string rig = " --rig " + walls.rig;
     refused(walls.folder.path("gone") + rig, 66, "gone");
     refused(walls.pairs + " --rig " + walls.folder.path("gone.yaml"), 66, "gone.yaml");
+    const std::string page = walls.folder.path("page");
+    refused(walls.pairs + " --rig " + walls.folder.path("gone.yaml") + " --report " + page, 66, "gone.yaml");
+    EXPECT_FALSE(std::filesystem::exists(page));
+    refused(walls.words() + " --report " + page + "/in/it", 73, "/in/it");
     refused(walls.words() + " --box 1,2,3", 64, "--box 1,2,3");
     refused(walls.words() + " --box 200,0,60,10", 64, "does not lie in");
     refused(walls.words() + " --far-mm 550", 64, "widen");
