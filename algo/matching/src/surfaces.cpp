@@ -111,10 +111,10 @@ constexpr std::int16_t kHopeless = INT16_MAX;
 constexpr int kMostDoubt = 282;
 constexpr int kRange = 8 * 256;
 
-/// log2, 8 fraction bits, straight between powers of two; x >= 1.
+/// log2, 8 fraction bits, straight between powers of two; 0 for 0.
 int log2_q8(std::uint64_t x)
 {
-    const int exponent = static_cast<int>(std::bit_width(x)) - 1;
+    const int exponent = std::max(static_cast<int>(std::bit_width(x)) - 1, 0);
     return (exponent << 8) + static_cast<int>((x << 8 >> exponent) & 255);
 }
 
