@@ -108,7 +108,7 @@ constexpr std::int64_t kNoTexture = 30 * kSquareUnit;
 /// Of which nobody can say how good it is.
 constexpr std::int16_t kHopeless = INT16_MAX;
 /// With more doubt there is no value, and with kRange less there is none. In 1/256, as all doubt.
-constexpr int kMostDoubt = 282;
+constexpr int kMostDoubt = 330;
 constexpr int kRange = 8 * 256;
 
 /// log2, 8 fraction bits, straight between powers of two; 0 for 0.
