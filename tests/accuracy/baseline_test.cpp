@@ -213,7 +213,7 @@ TEST(Baseline, ALongerOneMeasuresFinerAndSeesLess)
         EXPECT_LT(all[k].median_mm, all[k - 1].median_mm) << "a longer baseline measures finer";
         EXPECT_GT(all[k].hidden, all[k - 1].hidden) << "and hides more";
     }
-    EXPECT_GT(all.back().mismatched, all.front().mismatched) << "and its pictures differ more";
+    EXPECT_LT(all.back().valued, all.front().valued) << "and its pictures differ more";
 }
 
 } // namespace

@@ -35,7 +35,7 @@ struct Slant
 };
 
 /// Weighted sums of positions and disparities. A weight is at most 2^8, there are at most 17 x 17 of them, |dx| and
-/// |dy| are at most 2^5, and |d|, of neighbours near a plane that starts at 0, is below 2^14.
+/// |dy| are at most 2^5, and |d|, of neighbours near a plane that starts at 0, is below 2^15.
 struct Sums
 {
     std::int64_t one = 0, x = 0, y = 0, d = 0, xx = 0, xy = 0, yy = 0, xd = 0, yd = 0;
