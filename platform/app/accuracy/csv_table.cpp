@@ -19,7 +19,7 @@ Result<std::string> whole_text(const std::string& path)
     TRY(file.open(path.c_str()));
     if (file.size_bytes() > kMostBytes)
         return failure(Fault::kBadData, "%s: larger than 1 MiB: a table of distances is not", shown_path(path.c_str()));
-    std::string text(file.size_bytes(), '\0');
+    std::string text(static_cast<std::size_t>(file.size_bytes()), '\0');
     text.resize(TRY(file.read(std::as_writable_bytes(std::span{text.data(), text.size()}))));
     constexpr const char* kMark = "\xEF\xBB\xBF"; // spreadsheets put it in front
     return text.starts_with(kMark) ? text.substr(3) : text;
