@@ -1,6 +1,8 @@
 // A plane of least squares through weighted points, in integers.
 #pragma once
 
+#include "point_sums.h"
+
 #include <algorithm>
 #include <cstdint>
 
@@ -8,24 +10,9 @@ namespace dicot::matching {
 
 /// Points (dx, dy, rise) around a centre: |dx|, |dy| <= 8 px, |rise| < 2^17 in 1/4096 px, 81 of them at most, weights
 /// up to 2^7 kMostWeight. Every sum is below 2^50.
-struct PlaneSums
+struct PlaneSums : PointSums
 {
     static constexpr int kMostWeight = 65535;
-
-    std::int64_t one = 0, x = 0, y = 0, rise = 0, xx = 0, xy = 0, yy = 0, x_rise = 0, y_rise = 0;
-
-    void add(std::int64_t weight, int dx, int dy, std::int64_t rise_here)
-    {
-        one += weight;
-        x += weight * dx;
-        y += weight * dy;
-        rise += weight * rise_here;
-        xx += weight * (dx * dx);
-        xy += weight * (dx * dy);
-        yy += weight * (dy * dy);
-        x_rise += weight * dx * rise_here;
-        y_rise += weight * dy * rise_here;
-    }
 
     /// 1/4096 px, and a px.
     struct Plane

@@ -1,5 +1,6 @@
 #include "slants.h"
 
+#include "point_sums.h"
 #include "tables.h"
 
 #include <algorithm>
@@ -36,23 +37,8 @@ struct Slant
 
 /// Weighted sums of positions and disparities. A weight is at most 2^8, there are at most 17 x 17 of them, |dx| and
 /// |dy| are at most 2^5, and |d|, of neighbours near a plane that starts at 0, is below 2^15.
-struct Sums
+struct SlantSums : PointSums
 {
-    std::int64_t one = 0, x = 0, y = 0, d = 0, xx = 0, xy = 0, yy = 0, xd = 0, yd = 0;
-
-    void add(std::int64_t weight, int dx, int dy, std::int64_t disparity)
-    {
-        one += weight;
-        x += weight * dx;
-        y += weight * dy;
-        d += weight * disparity;
-        xx += weight * dx * dx;
-        xy += weight * dx * dy;
-        yy += weight * dy * dy;
-        xd += weight * dx * disparity;
-        yd += weight * dy * disparity;
-    }
-
     /// 256 times the covariance of two quantities from the sum of their products and their own sums; products of two
     /// sums stay below 2^60.
     std::int64_t covariance(std::int64_t product, std::int64_t a, std::int64_t b) const
@@ -66,8 +52,8 @@ struct Sums
         const std::int64_t across2 = covariance(xx, x, x) + kStiffness;
         const std::int64_t down2 = covariance(yy, y, y) + kStiffness;
         const std::int64_t both = covariance(xy, x, y);
-        const std::int64_t across_d = covariance(xd, x, d);
-        const std::int64_t down_d = covariance(yd, y, d);
+        const std::int64_t across_d = covariance(x_rise, x, rise);
+        const std::int64_t down_d = covariance(y_rise, y, rise);
         const std::int64_t determinant = across2 * down2 - both * both; // positive: kStiffness, and Cauchy-Schwarz
         const auto slope = [&](std::int64_t numerator) {
             return std::clamp(numerator * 256 / determinant, -kSteepest, kSteepest);
@@ -75,7 +61,7 @@ struct Sums
         Slant slant{};
         slant.across = slope(across_d * down2 - down_d * both);
         slant.down = slope(down_d * across2 - across_d * both);
-        slant.centre = d / one - (slant.across * x + slant.down * y) / (256 * one);
+        slant.centre = rise / one - (slant.across * x + slant.down * y) / (256 * one);
         return slant;
     }
 };
@@ -99,7 +85,7 @@ struct Surface
         const LabRow centre = left.lab(y);
         Slant slant{};
         for (int round = 0; round < kRounds; ++round) {
-            Sums sums;
+            SlantSums sums;
             for (int dy = -kReach; dy <= kReach; dy += kStride) {
                 if (y + dy < 0 || y + dy >= maps.disparity.height)
                     continue;

@@ -33,13 +33,27 @@ template <int reach, int stride>
 class Neighbourhood
 {
 public:
+    /// Calls pixel(x, neighbours) for each pixel of row y; neighbours(visit) calls visit(weight, dx, dy) for each one
+    /// that counts. All are inside the picture.
+    template <typename Pixel>
+    static void sweep(const Scene& scene, int y, Pixel&& pixel)
+    {
+        Neighbourhood window;
+        for (int x0 = 0; x0 < scene.width; x0 += kStrip) {
+            const int count = std::min(kStrip, scene.width - x0);
+            window.weigh(scene, y, x0, count);
+            for (int i = 0; i < count; ++i)
+                pixel(x0 + i, [&](auto&& visit) { window.visit(i, visit); });
+        }
+    }
+
+private:
     static constexpr int kSide = 2 * reach / stride + 1;
     static constexpr int kStrip = 32;
 
     void weigh(const Scene& scene, int y, int x0, int count)
     {
         constexpr PairU16 kBoth = {kLeftWeightOne, kLeftWeightOne};
-        const auto moved = [](LabRow row, int columns) { return LabRow{row.la + columns, row.b + columns}; };
         for (int row = 0; row < kSide; row += 2) {
             const int dy = row * stride - reach;
             const LabRow low = scene.left.lab(y + dy);
@@ -53,7 +67,6 @@ public:
         }
     }
 
-    /// Calls visit(weight, dx, dy) for each neighbour of pixel i of the strip that counts. All are inside the picture.
     template <typename Visit>
     void visit(int i, Visit&& visit) const
     {
@@ -68,7 +81,6 @@ public:
         }
     }
 
-private:
     std::array<std::array<PairU16, kStrip>, static_cast<std::size_t>((kSide + 1) / 2 * kSide)> weights_;
 };
 
@@ -208,86 +220,72 @@ void SurfaceRefiner::look_up(const Scene& scene, Crew& crew)
 
 void SurfaceRefiner::shift_row(const Scene& scene, int y)
 {
-    using Window = Neighbourhood<kShiftReach, kShiftStride>;
-    Window window;
-    for (int x0 = 0; x0 < scene.width; x0 += Window::kStrip) {
-        const int count = std::min(Window::kStrip, scene.width - x0);
-        window.weigh(scene, y, x0, count);
-        for (int i = 0; i < count; ++i) {
-            const int x = x0 + i;
-            const Slope own = slopes_.row(y)[x];
-            next_.row(y)[x] = own;
-            texture_.row(y)[x] = 0;
-            doubt_.row(y)[x] = kHopeless;
-            if (own.disparity == kNoSlope)
-                continue;
-            ShiftSums sums;
-            window.visit(i, [&](int weight, int dx, int dy) {
-                const int difference = difference_.row(y + dy)[x + dx];
-                if (difference == kUnknown)
-                    return;
-                const int plane = own.disparity + own.across * dx + own.down * dy;
-                if (std::abs(slopes_.row(y + dy)[x + dx].disparity - plane) <= kSameSurface)
-                    sums.add(weight, difference, gradient_.row(y + dy)[x + dx]);
-            });
-            if (sums.one == 0)
-                continue;
-            const std::int64_t squares = sums.squares - sums.gradient * sums.gradient / sums.one;
-            const std::int64_t products = sums.products - sums.difference * sums.gradient / sums.one;
-            // A difference is in 1/16, a gradient in 1/64 grey level.
-            const std::int64_t step = -(products * (4 << kSlopeBits)) / (squares + kNoTexture);
-            next_.row(y)[x].disparity +=
-                static_cast<std::int32_t>(std::clamp<std::int64_t>(step, -kLongestStep, kLongestStep));
-            texture_.row(y)[x] =
-                static_cast<std::uint16_t>(std::min<std::int64_t>(squares / kSquareUnit + 1, PlaneSums::kMostWeight));
-            doubt_.row(y)[x] = doubt_of_shift(sums.variance(), texture_.row(y)[x]);
-        }
-    }
+    Neighbourhood<kShiftReach, kShiftStride>::sweep(scene, y, [&](int x, const auto& neighbours) {
+        const Slope own = slopes_.row(y)[x];
+        next_.row(y)[x] = own;
+        texture_.row(y)[x] = 0;
+        doubt_.row(y)[x] = kHopeless;
+        if (own.disparity == kNoSlope)
+            return;
+        ShiftSums sums;
+        neighbours([&](int weight, int dx, int dy) {
+            const int difference = difference_.row(y + dy)[x + dx];
+            if (difference == kUnknown)
+                return;
+            const int plane = own.disparity + own.across * dx + own.down * dy;
+            if (std::abs(slopes_.row(y + dy)[x + dx].disparity - plane) <= kSameSurface)
+                sums.add(weight, difference, gradient_.row(y + dy)[x + dx]);
+        });
+        if (sums.one == 0)
+            return;
+        const std::int64_t squares = sums.squares - sums.gradient * sums.gradient / sums.one;
+        const std::int64_t products = sums.products - sums.difference * sums.gradient / sums.one;
+        // A difference is in 1/16, a gradient in 1/64 grey level.
+        const std::int64_t step = -(products * (4 << kSlopeBits)) / (squares + kNoTexture);
+        next_.row(y)[x].disparity +=
+            static_cast<std::int32_t>(std::clamp<std::int64_t>(step, -kLongestStep, kLongestStep));
+        texture_.row(y)[x] =
+            static_cast<std::uint16_t>(std::min<std::int64_t>(squares / kSquareUnit + 1, PlaneSums::kMostWeight));
+        doubt_.row(y)[x] = doubt_of_shift(sums.variance(), texture_.row(y)[x]);
+    });
 }
 
 void SurfaceRefiner::fit_row(const Scene& scene, int y, int same_surface)
 {
-    using Window = Neighbourhood<kFitReach, kFitStride>;
-    Window window;
-    for (int x0 = 0; x0 < scene.width; x0 += Window::kStrip) {
-        const int count = std::min(Window::kStrip, scene.width - x0);
-        window.weigh(scene, y, x0, count);
-        for (int i = 0; i < count; ++i) {
-            const int x = x0 + i;
-            const Slope own = slopes_.row(y)[x];
-            next_.row(y)[x] = own;
-            if (own.disparity == kNoSlope)
-                continue;
-            PlaneSums sums;
-            std::int64_t asked = 0, agreed = 0, deviation = 0;
-            window.visit(i, [&](int weight, int dx, int dy) {
-                asked += weight;
-                const std::int32_t disparity = slopes_.row(y + dy)[x + dx].disparity;
-                const int texture = texture_.row(y + dy)[x + dx];
-                if (disparity == kNoSlope || texture == 0)
-                    return;
-                const int rise = disparity - own.disparity;
-                const int off = std::abs(rise - own.across * dx - own.down * dy);
-                if (off > same_surface)
-                    return;
-                sums.add(std::int64_t{weight} * texture, dx, dy, rise);
-                agreed += weight;
-                deviation += std::int64_t{weight} * texture * off;
-            });
-            if (sums.one == 0) {
-                doubt_.row(y)[x] = kHopeless;
-                continue;
-            }
-            if (doubt_.row(y)[x] != kHopeless)
-                doubt_.row(y)[x] =
-                    static_cast<std::int16_t>(doubt_.row(y)[x] + doubt_of_plane(agreed, asked, deviation / sums.one));
-            const PlaneSums::Plane plane = sums.plane();
-            if (std::abs(plane.centre) >= kOnePx)
-                continue;
-            next_.row(y)[x] = {own.disparity + plane.centre, static_cast<std::int16_t>(plane.across),
-                               static_cast<std::int16_t>(plane.down)};
+    Neighbourhood<kFitReach, kFitStride>::sweep(scene, y, [&](int x, const auto& neighbours) {
+        const Slope own = slopes_.row(y)[x];
+        next_.row(y)[x] = own;
+        if (own.disparity == kNoSlope)
+            return;
+        PlaneSums sums;
+        std::int64_t asked = 0, agreed = 0, deviation = 0;
+        neighbours([&](int weight, int dx, int dy) {
+            asked += weight;
+            const std::int32_t disparity = slopes_.row(y + dy)[x + dx].disparity;
+            const int texture = texture_.row(y + dy)[x + dx];
+            if (disparity == kNoSlope || texture == 0)
+                return;
+            const int rise = disparity - own.disparity;
+            const int off = std::abs(rise - own.across * dx - own.down * dy);
+            if (off > same_surface)
+                return;
+            sums.add(std::int64_t{weight} * texture, dx, dy, rise);
+            agreed += weight;
+            deviation += std::int64_t{weight} * texture * off;
+        });
+        if (sums.one == 0) {
+            doubt_.row(y)[x] = kHopeless;
+            return;
         }
-    }
+        if (doubt_.row(y)[x] != kHopeless)
+            doubt_.row(y)[x] =
+                static_cast<std::int16_t>(doubt_.row(y)[x] + doubt_of_plane(agreed, asked, deviation / sums.one));
+        const PlaneSums::Plane plane = sums.plane();
+        if (std::abs(plane.centre) >= kOnePx)
+            return;
+        next_.row(y)[x] = {own.disparity + plane.centre, static_cast<std::int16_t>(plane.across),
+                           static_cast<std::int16_t>(plane.down)};
+    });
 }
 
 void SurfaceRefiner::fit_planes(const Scene& scene, Crew& crew, int same_surface)

@@ -48,7 +48,7 @@ private:
     BoardFolder folder_;
     unsigned session_;
     OfferedSnapshot at_; ///< the one whose files were asked for last: a file is one of them
-    OfferedFile found_;  ///< of at_, found again in this session
+    OfferedFile found_;  ///< of at_, found again on this connection
 };
 
 struct Day
