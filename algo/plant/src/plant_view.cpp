@@ -1,0 +1,1 @@
+#include "dicot/plant/plant_view.h"
