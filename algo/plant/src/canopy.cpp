@@ -43,14 +43,16 @@ bool hang_together(const CloudPoint& a, const CloudPoint& b, double focal_px)
     return std::fabs(double(a.z) - b.z) * focal_px < kSteep * std::min(a.z, b.z);
 }
 
-/// Marks with 1 what is green and above the ground, in patches that are no specks.
+/// Marks with 1 what is green and above the ground, in patches that are no specks, and that were not guessed: background
+/// beyond the working range that is taken for something near has a mean confidence of 40 of 255, a leaf of 150.
 void find_green(const PlantView& view, const GroundFrame& ground, std::span<std::uint8_t> green, Arena& arena)
 {
-    constexpr int kSpeck = 60;
+    constexpr int kSpeck = 60, kGuessed = 64;
     const std::size_t mark = arena.used();
     const std::span<const CloudPoint> points = view.cloud.points;
     const std::span<std::int32_t> parent = arena.take<std::int32_t>(points.size());
     const std::span<std::int32_t> size = arena.take<std::int32_t>(points.size());
+    const std::span<std::int32_t> confidence = arena.take<std::int32_t>(points.size());
     const double least = least_height_mm(view, ground);
     for (std::size_t i = 0; i < points.size(); ++i)
         green[i] = is_green(points[i].colour) && in_ground(ground, point_mm(view, i)).z > least;
@@ -71,10 +73,19 @@ void find_green(const PlantView& view, const GroundFrame& ground, std::span<std:
                 meet(view.point.at(x, y - 1), view.point.at(x, y));
         }
     std::ranges::fill(size, 0);
-    for (std::size_t i = 0; i < points.size(); ++i)
-        ++size[static_cast<std::size_t>(patches.root(static_cast<std::int32_t>(i)))];
-    for (std::size_t i = 0; i < points.size(); ++i)
-        green[i] = green[i] && size[static_cast<std::size_t>(patches.root(static_cast<std::int32_t>(i)))] >= kSpeck;
+    std::ranges::fill(confidence, 0);
+    const auto patch_of = [&](std::size_t i) {
+        return static_cast<std::size_t>(patches.root(static_cast<std::int32_t>(i)));
+    };
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        ++size[patch_of(i)];
+        confidence[patch_of(i)] += points[i].confidence;
+    }
+    const bool known = std::ranges::any_of(points, [](const CloudPoint& point) { return point.confidence > 0; });
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::size_t patch = patch_of(i);
+        green[i] = green[i] && size[patch] >= kSpeck && (!known || confidence[patch] >= kGuessed * size[patch]);
+    }
     arena.rewind(mark);
 }
 
@@ -123,7 +134,7 @@ TopView top_view(const PlantView& view, const GroundFrame& ground, std::span<con
 /// Joins cells with no more than kGapMm between them.
 void join_cells(const TopView& top, std::span<const std::int32_t> held, Groups& groups)
 {
-    constexpr double kGapMm = 40;
+    constexpr double kGapMm = 80;
     const int reach = std::max(1, static_cast<int>(kGapMm / top.cell_mm));
     for (int y = 0; y < top.height; ++y)
         for (int x = 0; x < top.width; ++x) {
@@ -142,7 +153,7 @@ int number_plants(const TopView& top, std::span<const std::int32_t> held, Groups
                   std::span<std::int32_t> column)
 {
     constexpr int kLeastPoints = 200;
-    constexpr double kLeastShare = 0.02;
+    constexpr double kLeastShare = 0.1;
     std::ranges::fill(size, 0);
     std::ranges::fill(column, 0);
     for (std::size_t cell = 0; cell < held.size(); ++cell) {
