@@ -7,7 +7,7 @@
 
 namespace dicot {
 
-/// Each thing names one of its group, the root itself; the least number is the root.
+/// Each thing names one of its group, the root itself.
 class Groups
 {
 public:
@@ -26,6 +26,10 @@ public:
         return i;
     }
 
+    /// The group of root i becomes part of that of root j.
+    void hang(std::int32_t i, std::int32_t j) { at(i) = j; }
+
+    /// The lesser of the two roots stays.
     void join(std::int32_t i, std::int32_t j)
     {
         i = root(i);
