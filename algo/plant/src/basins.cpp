@@ -70,13 +70,14 @@ Pieces cut_at_necks(const Surface& surface, Arena& arena)
             pieces.piece[i] = here;
             continue;
         }
-        std::sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), [&](std::int32_t a, std::int32_t b) {
-            return inside(a) != inside(b) ? inside(a) > inside(b) : a < b;
-        });
-        pieces.piece[i] = near[0];
+        std::int32_t home = near[0];
         for (std::size_t k = 1; k < count; ++k)
-            if (kNeckDenominator * (inside(here) + 1) >= kNeckNumerator * inside(near[k]))
-                basins.hang(near[k], near[0]);
+            if (inside(near[k]) > inside(home) || (inside(near[k]) == inside(home) && near[k] < home))
+                home = near[k];
+        pieces.piece[i] = home;
+        for (std::size_t k = 0; k < count; ++k)
+            if (near[k] != home && kNeckDenominator * (inside(here) + 1) >= kNeckNumerator * inside(near[k]))
+                basins.hang(near[k], home);
     }
 
     // Roots become numbers, in the order of the picture.
