@@ -15,6 +15,7 @@ namespace dicot {
 struct PlantView
 {
     static constexpr std::int32_t kNoPoint = -1;
+    static constexpr std::int32_t kMostCells = 1 << 22;
 
     PointCloud cloud;              ///< borrowed; points keep their order
     ImageView<std::int32_t> point; ///< index into cloud.points, or kNoPoint
@@ -26,7 +27,8 @@ struct PlantView
 };
 
 /// Finds the grid from the points alone (they stand row by row, left to right, one a pixel: triangulate()), so that a
-/// cloud from a file needs no rig. Fault::kBadData: no points, or no such grid.
+/// cloud from a file needs no rig. Fault::kBadData: no points, no such grid, or one of more than kMostCells;
+/// Fault::kConfig: `arena` is too small (kMostCells * 4 bytes suffice, and 512 KiB in passing).
 Result<PlantView> plant_view(const PointCloud& cloud, Arena& arena);
 
 } // namespace dicot
