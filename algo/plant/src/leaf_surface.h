@@ -14,9 +14,9 @@ namespace dicot {
 struct SurfaceCell
 {
     float x, y, z;
-    float area_mm2;     ///< of the surface within the cell
+    float area_mm2;       ///< of the surface within the cell
     float from_above_mm2; ///< the same, projected along the ground's `up`
-    std::int32_t point; ///< in the cloud
+    std::int32_t point;   ///< in the cloud
 };
 
 /// What is not a point yet is leaf, and what is not certain.

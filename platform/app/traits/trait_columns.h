@@ -11,6 +11,8 @@ struct PlantColumn
 {
     const char* name; ///< with method and unit, as in files
     const char* unit; ///< "" : a number
+    const char* drawn_unit;
+    double drawn_units; ///< in one `unit`
     const char* words;
     Measured PlantTraits::*measured;
 };

@@ -74,10 +74,11 @@ std::string newest_words(const TraitSeries& series)
     for (auto point = series.fit.curve.rbegin(); point != series.fit.curve.rend(); ++point) {
         if (std::isnan(point->value.value))
             continue;
-        std::string text = digits(point->value.value) + " " + series.column->unit;
-        if (std::isfinite(point->rate_per_day.value))
-            text += fill(", {}{} {} a day", {point->rate_per_day.value >= 0 ? "+" : "",
-                                             digits(point->rate_per_day.value), series.column->unit});
+        const double scale = series.column->drawn_units;
+        const std::string unit = *series.column->drawn_unit == 0 ? "" : std::string{" "} + series.column->drawn_unit;
+        std::string text = digits(scale * point->value.value) + unit;
+        if (const double rate = scale * point->rate_per_day.value; std::isfinite(rate))
+            text += fill(", {}{}{} a day", {rate >= 0 ? "+" : "", digits(rate), unit});
         if (std::isfinite(point->relative_rate_per_day.value))
             text += fill(" ({} %)", {fixed(100 * point->relative_rate_per_day.value, 1)});
         return text;
@@ -95,7 +96,7 @@ void draw_gaps(Plot& plot, const BoardGrowth& growth, double from, double to)
     }
 }
 
-void draw_curve(Plot& plot, const GrowthFit& fit)
+void draw_curve(Plot& plot, const GrowthFit& fit, double scale)
 {
     std::vector<PlotPoint> curve, low, high;
     const auto flush = [&] {
@@ -111,16 +112,18 @@ void draw_curve(Plot& plot, const GrowthFit& fit)
             flush();
             continue;
         }
-        const double reach = std::isfinite(point.value.sd) ? kBandSds * point.value.sd : 0;
-        curve.emplace_back(point.day, point.value.value);
-        low.emplace_back(point.day, point.value.value - reach);
-        high.emplace_back(point.day, point.value.value + reach);
+        const double value = scale * point.value.value;
+        const double reach = std::isfinite(point.value.sd) ? scale * kBandSds * point.value.sd : 0;
+        curve.emplace_back(point.day, value);
+        low.emplace_back(point.day, value - reach);
+        high.emplace_back(point.day, value + reach);
     }
     flush();
 }
 
 std::string drawn_series(const BoardGrowth& growth, const TraitSeries& series, const std::string& title)
 {
+    const double scale = series.column->drawn_units;
     std::vector<PlotPoint> used, outliers;
     double low = 1e300, high = -1e300, from = 1e300, to = -1e300;
     for (std::size_t k = 0; k < series.samples.size(); ++k) {
@@ -128,20 +131,22 @@ std::string drawn_series(const BoardGrowth& growth, const TraitSeries& series, c
             continue;
         const GrowthSample& sample = series.samples[k];
         const bool is_used = series.fit.samples[k].use == SampleFit::Use::kUsed;
-        (is_used ? used : outliers).emplace_back(sample.day, sample.measured.value);
-        low = std::min(low, sample.measured.value);
-        high = std::max(high, sample.measured.value);
+        const double value = scale * sample.measured.value;
+        (is_used ? used : outliers).emplace_back(sample.day, value);
+        low = std::min(low, value);
+        high = std::max(high, value);
         from = std::min(from, sample.day);
         to = std::max(to, sample.day);
     }
-    Plot plot(kWidth, kHeight, time_scale(growth.days, from, to), value_scale(low, high, series.column->unit), title);
+    Plot plot(kWidth, kHeight, time_scale(growth.days, from, to), value_scale(low, high, series.column->drawn_unit),
+              title);
     draw_gaps(plot, growth, from, to);
-    draw_curve(plot, series.fit);
+    draw_curve(plot, series.fit, scale);
     if (series.samples.size() <= kMostSpreads)
         for (std::size_t k = 0; k < series.samples.size(); ++k) {
             const auto& [value, sd] = series.samples[k].measured;
             if (series.fit.samples[k].use != SampleFit::Use::kUnmeasured && std::isfinite(sd))
-                plot.reach(series.samples[k].day, value - sd, value + sd, "spread");
+                plot.reach(series.samples[k].day, scale * (value - sd), scale * (value + sd), "spread");
         }
     plot.dots(used, "dots sample");
     plot.rings(outliers, "hollow");
@@ -151,18 +156,19 @@ std::string drawn_series(const BoardGrowth& growth, const TraitSeries& series, c
 std::string drawn_daily(const TraitSeries& series, const std::string& title)
 {
     std::vector<PlotPoint> curve, low, high;
+    const double scale = series.column->drawn_units;
     double reach = 0;
     for (int hour = 0; hour <= GrowthFit::kHours; ++hour) {
         const Measured& at = series.fit.daily[static_cast<std::size_t>(hour % GrowthFit::kHours)];
         if (std::isnan(at.value))
             continue;
-        curve.emplace_back(hour, at.value);
-        low.emplace_back(hour, at.value - kBandSds * at.sd);
-        high.emplace_back(hour, at.value + kBandSds * at.sd);
+        curve.emplace_back(hour, scale * at.value);
+        low.emplace_back(hour, scale * (at.value - kBandSds * at.sd));
+        high.emplace_back(hour, scale * (at.value + kBandSds * at.sd));
         reach = std::max({reach, std::abs(low.back().second), std::abs(high.back().second)});
     }
     Plot plot(kWidth, 240, Scale{0, 24, 3, "h", {}},
-              Scale::around(-reach, std::max(reach, 1e-6), 4, series.column->unit), title);
+              Scale::around(-reach, std::max(reach, 1e-6), 4, series.column->drawn_unit), title);
     plot.band(low, high, "band");
     plot.curve(curve, "trace");
     return plot.drawn();
@@ -177,7 +183,7 @@ std::string drawn_leaves(const BoardTraits& board, const BoardGrowth& growth, co
         std::vector<PlotPoint>& line = lines.emplace_back();
         for (const Sighting& at : leaf.seen) {
             const SlotTraits& slot = board.slots[at.slot];
-            const double area = slot.traits->leaves[at.index].area_mm2.value;
+            const double area = slot.traits->leaves[at.index].area_mm2.value / 100;
             if (!is_dated(slot.row) || !std::isfinite(area))
                 continue;
             line.emplace_back(growth.days.day_of(slot.row.began_us), area);
@@ -188,7 +194,7 @@ std::string drawn_leaves(const BoardTraits& board, const BoardGrowth& growth, co
     }
     if (!(high > 0))
         return "";
-    Plot plot(kWidth, kHeight, time_scale(growth.days, from, to), value_scale(0, high, "mm²"), title);
+    Plot plot(kWidth, kHeight, time_scale(growth.days, from, to), value_scale(0, high, "cm²"), title);
     draw_gaps(plot, growth, from, to);
     for (const std::vector<PlotPoint>& line : lines) {
         if (line.size() > 1)
