@@ -14,16 +14,16 @@ namespace dicot {
 struct SurfaceCell
 {
     float x, y, z;
-    float area_mm2;     ///< of the surface within the cell
+    float area_mm2;       ///< of the surface within the cell
     float from_above_mm2; ///< the same, projected along the ground's `up`
-    std::int32_t point; ///< in the cloud
+    std::int32_t point;   ///< in the cloud
 };
 
-/// What is not a point yet is leaf, and what is not certain.
+/// What is no point and yet may be leaf, and what is not certain.
 struct LeafGaps
 {
     float inside_cells = 0; ///< without a point, both neighbours in the row of this leaf
-    float beside_cells = 0; ///< between this leaf and something nearer
+    float beside_cells = 0; ///< without a point, between this leaf and something nearer
     float noise_mm = 0;     ///< of z, about the local planes: one standard deviation
 };
 
