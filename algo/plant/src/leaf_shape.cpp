@@ -186,6 +186,32 @@ public:
         return widest > 0 ? widest : widest_;
     }
 
+    /// Of what the sections hold; gaps across that are wider than kBridge_mm are not leaf.
+    double area_mm2(std::span<Place> sorted, const Parabola& profile) const
+    {
+        const auto order = [this](const Place& a, const Place& b) {
+            const int i = sections_.of(a.along), k = sections_.of(b.along);
+            return i != k ? i < k : a.across < b.across;
+        };
+        std::sort(sorted.begin(), sorted.end(), order);
+        constexpr double kBridge_mm = 6;
+        const double bridge = std::max(kBridge_mm, 3 * shape_.across_spacing_mm);
+        double area = 0;
+        for (std::size_t at = 0; at < sorted.size();) {
+            const int i = sections_.of(sorted[at].along);
+            const std::size_t first = at;
+            double covered = shape_.across_spacing_mm;
+            for (++at; at < sorted.size() && sections_.of(sorted[at].along) == i; ++at) {
+                const double gap = double(sorted[at].across) - double(sorted[at - 1].across);
+                covered += gap > bridge ? shape_.across_spacing_mm : gap;
+            }
+            const double chord = double(sorted[at - 1].across) - double(sorted[first].across) + shape_.across_spacing_mm;
+            const double slope = profile.slope + 2 * profile.bend * sections_.along(i);
+            area += covered * across_mm(i) / chord * sections_.step * std::sqrt(1 + slope * slope);
+        }
+        return area;
+    }
+
     double off_at(double along) const
     {
         double sum = 0;
@@ -283,10 +309,8 @@ LeafShape leaf_shape(std::span<const SurfaceCell> cells, double focal_px, std::s
 {
     LeafShape shape;
     Moments moments;
-    for (const SurfaceCell& cell : cells) {
+    for (const SurfaceCell& cell : cells)
         moments.add(where(cell), cell.area_mm2);
-        shape.area_mm2 += cell.area_mm2;
-    }
     const PrincipalAxes axes = principal_axes(moments);
     shape.frame = {moments.mean(), axes.axis[0], axes.axis[1], cross(axes.axis[0], axes.axis[1])};
     const auto measure_spacing = [&] {
@@ -307,6 +331,7 @@ LeafShape leaf_shape(std::span<const SurfaceCell> cells, double focal_px, std::s
     double noise_mm = 0;
     shape.length_mm = measure.length_mm(ends[0], ends[1], profile, noise_mm) + shape.along_spacing_mm;
     shape.width_mm = measure.width_mm();
+    shape.area_mm2 = measure.area_mm2(places, profile);
     const double slope = profile.slope + profile.bend * (ends[0].along + ends[1].along);
     const double stretch = std::sqrt(1 + slope * slope);
     shape.curvature_per_mm = 2 * profile.bend / (stretch * stretch * stretch);

@@ -31,7 +31,7 @@ struct LeafFrame
 struct LeafShape
 {
     LeafFrame frame;
-    double area_mm2 = 0; ///< of the cells alone
+    double area_mm2 = 0; ///< on the surface, within the outline
     double length_mm = 0, width_mm = 0;
     double curvature_per_mm = 0, curvature_sd_per_mm = 0; ///< positive: hollow on the side that `normal` points to
     double along_spacing_mm = 0, across_spacing_mm = 0;   ///< of the leaf's cells

@@ -8,7 +8,7 @@
 namespace dicot {
 namespace {
 
-constexpr double kSmoothing_mm = 6;
+constexpr double kSmoothing_mm = 4;
 /// A cell sees at most as much surface as under 83 degrees.
 constexpr double kSteepest = 8;
 

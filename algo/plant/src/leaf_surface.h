@@ -19,11 +19,11 @@ struct SurfaceCell
     std::int32_t point;   ///< in the cloud
 };
 
-/// What is not a point yet is leaf, and what is not certain.
+/// What is no point and yet may be leaf, and what is not certain.
 struct LeafGaps
 {
     float inside_cells = 0; ///< without a point, both neighbours in the row of this leaf
-    float beside_cells = 0; ///< between this leaf and something nearer
+    float beside_cells = 0; ///< without a point, between this leaf and something nearer
     float noise_mm = 0;     ///< of z, about the local planes: one standard deviation
 };
 

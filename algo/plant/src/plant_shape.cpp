@@ -1,6 +1,7 @@
 #include "plant_shape.h"
 
 #include "convex_hull.h"
+#include "root_of_squares.h"
 #include "vec3.h"
 
 #include <algorithm>
@@ -74,11 +75,6 @@ double highest(std::span<float> heights, std::size_t count)
                     static_cast<std::ptrdiff_t>(heights.size() - std::clamp<std::size_t>(count, 1, heights.size()));
     std::nth_element(heights.begin(), at, heights.end());
     return *at;
-}
-
-double root_of_squares(double a, double b)
-{
-    return std::sqrt(a * a + b * b);
 }
 
 void measure_heights(std::span<float> heights, double ground_sd_mm, PlantTraits& plant)

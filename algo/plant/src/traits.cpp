@@ -3,6 +3,8 @@
 #include "leaf_borders.h"
 #include "leaf_shape.h"
 #include "plant_shape.h"
+#include "root_of_squares.h"
+#include "visible_area.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,9 +16,6 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDegrees = 180 / std::numbers::pi;
-/// Of what lies between a leaf and something nearer, this much is the leaf's; the rest is what stands farther back
-/// still. On rendered plants 0.54 to 0.97.
-constexpr double kBesideShare = 0.75;
 /// A leaf that something hides along less of its border is whole enough to be measured.
 constexpr double kHiddenShare = 0.08, kCutShare = 0.03;
 
@@ -30,11 +29,6 @@ Result<Traits> take_traits(const Leaves& leaves, Arena& arena)
     std::ranges::fill(traits.leaves, LeafTraits{});
     std::ranges::fill(traits.plants, PlantTraits{});
     return traits;
-}
-
-double root_of_squares(double a, double b, double c = 0)
-{
-    return std::sqrt(a * a + b * b + c * c);
 }
 
 void put(Vec3 from, double (&into)[3])
@@ -106,12 +100,12 @@ void measure_leaf(const PlantView& view, const Leaves& leaves, const LeafSurface
     put(tip, leaf.tip_mm);
 
     const double cell_mm2 = shape.area_mm2 / double(cells.size());
-    const double inside = gaps.inside_cells * cell_mm2, beside = gaps.beside_cells * cell_mm2;
-    const double area = shape.area_mm2 + inside + kBesideShare * beside;
+    const double beside = gaps.beside_cells * cell_mm2;
+    const double area = shape.area_mm2 + kBesideShare * beside;
     const double scale = gaps.noise_mm / shape.frame.centre.z; // z wrong as a whole: everything is larger or smaller
     const double rim = shape.length_mm * std::max(shape.along_spacing_mm, shape.across_spacing_mm);
     leaf.area_mm2 = {area, root_of_squares(root_of_squares(2 * scale * area, rim, seen.unsure * area / 4),
-                                           (1 - kBesideShare) * beside, inside / 4)};
+                                           (1 - kBesideShare) * beside)};
 
     const double depth_over_length = std::fabs(shape.frame.along.z), depth_over_width = std::fabs(shape.frame.across.z);
     const double two = std::numbers::sqrt2;
@@ -124,8 +118,7 @@ void measure_leaf(const PlantView& view, const Leaves& leaves, const LeafSurface
     const double tilt = root_of_squares(two * gaps.noise_mm / std::max(1.0, shape.width_mm),
                                         leaves.ground.height_sd_mm / std::max(1.0, shape.length_mm));
     leaf.inclination_deg = {std::acos(upright) * kDegrees, tilt * kDegrees};
-    const double to_right = dot(points_to, vec3(leaves.ground.right)),
-                 to_back = dot(points_to, vec3(leaves.ground.away));
+    const double to_right = dot(points_to, vec3(leaves.ground.right)), to_back = dot(points_to, vec3(leaves.ground.away));
     const double level = root_of_squares(to_right, to_back);
     const double azimuth = std::atan2(to_back, to_right) * kDegrees;
     if (level > 0)
@@ -135,9 +128,10 @@ void measure_leaf(const PlantView& view, const Leaves& leaves, const LeafSurface
     leaf.curvature_per_m = {-1000 * shape.curvature_per_mm, 1000 * shape.curvature_sd_per_mm};
 }
 
-void sum_up(const Traits& traits, PlantTraits& plant)
+void sum_up(const PlantView& view, const Leaves& leaves, const LeafSurfaces& surfaces, const Traits& traits,
+            PlantTraits& plant)
 {
-    double area = 0, variance = 0, slant = 0, weight = 0, slant_variance = 0, whole = 0, pieces = 0;
+    double slant = 0, weight = 0, slant_variance = 0, whole = 0, pieces = 0;
     for (const LeafTraits& leaf : traits.leaves) {
         if (leaf.plant != plant.plant)
             continue;
@@ -146,17 +140,16 @@ void sum_up(const Traits& traits, PlantTraits& plant)
         plant.cut |= leaf.cut;
         if (std::isnan(leaf.area_mm2.value))
             continue;
-        area += leaf.area_mm2.value;
-        variance += leaf.area_mm2.sd * leaf.area_mm2.sd;
         weight += leaf.area_mm2.value;
         slant += leaf.area_mm2.value * leaf.inclination_deg.value;
         slant_variance += leaf.area_mm2.value * leaf.area_mm2.value * leaf.inclination_deg.sd * leaf.inclination_deg.sd;
     }
-    plant.leaf_area_visible_mm2 = {area, std::sqrt(variance)};
-    plant.inclination_mean_deg =
-        weight > 0 ? Measured{slant / weight, std::sqrt(slant_variance) / weight} : Measured{kNone, kNone};
+    plant.leaf_area_visible_mm2 = visible_area(view, leaves, surfaces, plant.plant);
+    plant.inclination_mean_deg = weight > 0 ? Measured{slant / weight, std::sqrt(slant_variance) / weight}
+                                            : Measured{kNone, kNone};
     plant.leaf_count = {whole, std::sqrt(pieces) / 2};
-    const double share = area > 0 ? std::sqrt(variance) / area : 0;
+    const Measured& area = plant.leaf_area_visible_mm2;
+    const double share = area.value > 0 ? area.sd / area.value : 0;
     plant.projected_area_mm2.sd = share * plant.projected_area_mm2.value;
     plant.hull_volume_mm3.sd = share * plant.hull_volume_mm3.value;
 }
@@ -197,7 +190,7 @@ Result<Traits> measure_traits(const PlantView& view, const Leaves& leaves, Arena
     for (PlantTraits& plant : traits.plants) {
         plant.plant = static_cast<int>(&plant - traits.plants.data()) + 1;
         measure_plant(view, leaves, surfaces, arena, plant);
-        sum_up(traits, plant);
+        sum_up(view, leaves, surfaces, traits, plant);
     }
     if (arena.overrun())
         return failure(Fault::kConfig, "too little memory to measure %d plants", leaves.plant_count);
