@@ -1,0 +1,75 @@
+// What dicot view shows, as answers to paths: the same for its server and for an exported folder.
+#pragma once
+
+#include "growth_job.h"
+#include "recent.h"
+#include "view_board.h"
+
+#include "dicot/base/status.h"
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dicot::app {
+
+struct Answer
+{
+    int status = 200; ///< as HTTP has it
+    const char* type = "text/plain; charset=utf-8";
+    std::shared_ptr<const std::string> body; ///< of what is not 200: a sentence for a person
+};
+
+/// The page, bundled and with all that it needs; and the policy that allows its own parts alone.
+std::string_view view_page();
+std::string_view view_policy();
+
+/// Paths are looked up among those that there are (README.md, "What the page reads"): none of them names a file. Several
+/// threads may ask at once.
+class ViewSite
+{
+public:
+    /// `path`: an archive, a store, the folder of one board, or a cloud file. Errors: boards_of_archive()'s,
+    /// ViewBoard::of_cloud()'s.
+    static Result<std::unique_ptr<ViewSite>> open(const std::string& path);
+
+    /// data/archive.json also looks for what came and went since.
+    Answer answer(std::string_view path);
+    /// All paths that are there, but for the page; `last`: of each board the newest so many slots, 0: all.
+    std::vector<std::string> paths(std::size_t last);
+    /// Waits until every snapshot is measured, or somebody wants an end.
+    void finish_growth();
+
+private:
+    struct Board
+    {
+        Status opened;
+        std::string name;
+        std::shared_ptr<const ViewBoard> slots; ///< null: `opened` says why
+        std::shared_ptr<GrowthJob> growth;
+    };
+    /// What is made of one cloud.
+    struct Seen
+    {
+        Answer plants, leaves, left, disparity;
+    };
+
+    explicit ViewSite(std::string path) : path_(std::move(path)) {}
+    Status look();
+    Answer archive();
+    Answer of_board(const Board& board, std::string_view file);
+    Answer of_slot(const Board& board, const SlotRow& row, std::string_view file, const std::string& path);
+    Answer thumbnail(const Board& board, const SlotRow& row, const std::string& path);
+    std::shared_ptr<const Seen> seen(const Board& board, const SlotRow& row);
+
+    std::string path_;
+    std::mutex looking_; ///< boards_ and what is kept
+    std::vector<Board> boards_;
+    Recent<Answer> thumbnails_{2000};
+    Recent<std::shared_ptr<const Seen>> seen_{16};
+    std::mutex working_; ///< one cloud at a time
+};
+
+} // namespace dicot::app
