@@ -90,13 +90,15 @@ char state_letter(const SlotRow& row)
 
 } // namespace
 
-Result<ViewBoard> ViewBoard::of_folder(const DeviceFolder& folder)
+Result<ViewBoard> ViewBoard::of_folder(const DeviceFolder& folder, std::optional<std::int64_t> last)
 {
     ViewBoard board;
     board.name_ = folder.device;
     board.folder_ = folder.path;
     ReadStore store = TRY(ReadStore::open(folder.path));
-    TRY(store.catalogue->for_each({}, [&board](const SlotRow& row) {
+    SlotQuery query;
+    query.last = last;
+    TRY(store.catalogue->for_each(query, [&board](const SlotRow& row) {
         board.slots_.push_back(row);
         return true;
     }));

@@ -74,9 +74,9 @@ Result<CloudOnDisk> cloud_in(const ViewBoard& board, const SlotRow& row)
 
 } // namespace
 
-Result<std::unique_ptr<ViewSite>> ViewSite::open(const std::string& path)
+Result<std::unique_ptr<ViewSite>> ViewSite::open(const std::string& path, std::optional<std::int64_t> last)
 {
-    std::unique_ptr<ViewSite> site{new ViewSite(path)};
+    std::unique_ptr<ViewSite> site{new ViewSite(path, last)};
     TRY(site->look());
     return site;
 }
@@ -98,7 +98,7 @@ Status ViewSite::look()
         add("", TRY(ViewBoard::of_cloud(path_)));
     else
         for (const DeviceFolder& folder : TRY(boards_of_archive(path_)))
-            add(folder.device, ViewBoard::of_folder(folder));
+            add(folder.device, ViewBoard::of_folder(folder, last_));
     const std::scoped_lock lock(looking_);
     std::swap(boards_, boards);
     thumbnails_.clear();
@@ -233,7 +233,7 @@ std::shared_ptr<const ViewSite::Seen> ViewSite::seen(const Board& board, const S
     return made;
 }
 
-std::vector<std::string> ViewSite::paths(std::size_t last)
+std::vector<std::string> ViewSite::paths()
 {
     const std::scoped_lock lock(looking_);
     std::vector<std::string> all{"data/archive.json"};
@@ -242,12 +242,10 @@ std::vector<std::string> ViewSite::paths(std::size_t last)
         all.insert(all.end(), {folder + "slots.json", folder + "curves.json"});
         if (!boards_[i].slots)
             continue;
-        const std::vector<SlotRow>& slots = boards_[i].slots->slots();
-        const std::size_t first = last > 0 && slots.size() > last ? slots.size() - last : 0;
-        for (std::size_t j = first; j < slots.size(); ++j) {
-            const std::string slot = folder + std::to_string(slots[j].sequence) + "/";
+        for (const SlotRow& row : boards_[i].slots->slots()) {
+            const std::string slot = folder + std::to_string(row.sequence) + "/";
             all.push_back(slot + "snapshot.json");
-            if (slots[j].done && slots[j].kept == Kept::kHere)
+            if (row.done && row.kept == Kept::kHere)
                 for (const char* file : {"cloud.drc", "thumb.jpg", "left.jpg", "disparity.png", "plants.json", "leaves.bin"})
                     all.push_back(slot + file);
         }

@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,14 +32,14 @@ std::string_view view_policy();
 class ViewSite
 {
 public:
-    /// `path`: an archive, a store, the folder of one board, or a cloud file. Errors: boards_of_archive()'s,
-    /// ViewBoard::of_cloud()'s.
-    static Result<std::unique_ptr<ViewSite>> open(const std::string& path);
+    /// `path`: an archive, a store, the folder of one board, or a cloud file. `last`: of each board only so many slots, the
+    /// newest. Errors: boards_of_archive()'s, ViewBoard::of_cloud()'s.
+    static Result<std::unique_ptr<ViewSite>> open(const std::string& path, std::optional<std::int64_t> last);
 
     /// data/archive.json also looks for what came and went since.
     Answer answer(std::string_view path);
-    /// All paths that are there, but for the page; `last`: of each board the newest so many slots, 0: all.
-    std::vector<std::string> paths(std::size_t last);
+    /// All paths that are there, but for the page.
+    std::vector<std::string> paths();
     /// Waits until every snapshot is measured, or somebody wants an end.
     void finish_growth();
 
@@ -56,7 +57,7 @@ private:
         Answer plants, leaves, left, disparity;
     };
 
-    explicit ViewSite(std::string path) : path_(std::move(path)) {}
+    ViewSite(std::string path, std::optional<std::int64_t> last) : path_(std::move(path)), last_(last) {}
     Status look();
     Answer archive();
     Answer of_board(const Board& board, std::string_view file);
@@ -65,6 +66,7 @@ private:
     std::shared_ptr<const Seen> seen(const Board& board, const SlotRow& row);
 
     std::string path_;
+    std::optional<std::int64_t> last_;
     std::mutex looking_; ///< boards_ and what is kept
     std::vector<Board> boards_;
     Recent<Answer> thumbnails_{2000};
