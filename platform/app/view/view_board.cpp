@@ -8,7 +8,6 @@
 #include "dicot/medium/disk_medium.h"
 #include "dicot/os/input_file.h"
 #include "dicot/store/look.h"
-#include "dicot/store/names.h"
 
 #include <nlohmann/json.hpp>
 
@@ -150,7 +149,7 @@ json ViewBoard::snapshot_json(const SlotRow& row) const
     if (const Result<std::string> text = read_record_text(*medium.value(), row); text.ok())
         told["record"] = json::parse(text.value(), nullptr, false);
     else
-        told["files"][kRecord] = text.status().message();
+        told["files"]["record.json"] = text.status().message();
     (void)check_snapshot(*medium.value(), row, [&told](const char* name, const Status& outcome) {
         told["files"][name] = outcome.ok() ? "ok" : outcome.message();
     });

@@ -19,7 +19,8 @@ namespace dicot::app {
 class ViewBoard
 {
 public:
-    /// The slots of a store or an archive as they are now; `last`: only so many, the newest. Errors: ReadStore::open()'s.
+    /// The slots of a store or an archive as they are now; `last`: only so many, the newest. Errors:
+    /// ReadStore::open()'s.
     static Result<ViewBoard> of_folder(const DeviceFolder& folder, std::optional<std::int64_t> last);
     /// A cloud file alone: a board of one slot. Errors: CloudOnDisk::read()'s.
     static Result<ViewBoard> of_cloud(const std::string& path);

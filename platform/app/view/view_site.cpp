@@ -187,14 +187,10 @@ Answer ViewSite::thumbnail(const Board& board, const SlotRow& row, const std::st
         if (const Answer* kept = thumbnails_.find(path))
             return *kept;
     }
-    Result<std::string> file = board.slots->read(row, "left.jpg");
-    if (!file.ok()) {
-        const Answer left = seen(board, row)->left;
-        if (left.status != 200)
-            return left;
-        file = std::string{*left.body};
-    }
-    const Result<OwnPicture> picture = OwnPicture::decode(file.value(), "left.jpg");
+    const Answer left = of_slot(board, row, "left.jpg", path);
+    if (left.status != 200)
+        return left;
+    const Result<OwnPicture> picture = OwnPicture::decode(*left.body, "left.jpg");
     if (!picture.ok())
         return refusal(picture.status());
     const Answer made = answer_of(kJpeg, jpeg_of(smaller(picture.value().view, kThumbnailWidth).view));
@@ -246,7 +242,8 @@ std::vector<std::string> ViewSite::paths()
             const std::string slot = folder + std::to_string(row.sequence) + "/";
             all.push_back(slot + "snapshot.json");
             if (row.done && row.kept == Kept::kHere)
-                for (const char* file : {"cloud.drc", "thumb.jpg", "left.jpg", "disparity.png", "plants.json", "leaves.bin"})
+                for (const char* file :
+                     {"cloud.drc", "thumb.jpg", "left.jpg", "disparity.png", "plants.json", "leaves.bin"})
                     all.push_back(slot + file);
         }
     }

@@ -27,13 +27,13 @@ struct Answer
 std::string_view view_page();
 std::string_view view_policy();
 
-/// Paths are looked up among those that there are (README.md, "What the page reads"): none of them names a file. Several
-/// threads may ask at once.
+/// Paths are looked up among those that there are (README.md, "What the page reads"): none of them names a file.
+/// Several threads may ask at once.
 class ViewSite
 {
 public:
-    /// `path`: an archive, a store, the folder of one board, or a cloud file. `last`: of each board only so many slots, the
-    /// newest. Errors: boards_of_archive()'s, ViewBoard::of_cloud()'s.
+    /// `path`: an archive, a store, the folder of one board, or a cloud file. `last`: of each board only so many slots,
+    /// the newest. Errors: boards_of_archive()'s, ViewBoard::of_cloud()'s.
     static Result<std::unique_ptr<ViewSite>> open(const std::string& path, std::optional<std::int64_t> last);
 
     /// data/archive.json also looks for what came and went since.

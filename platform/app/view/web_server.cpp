@@ -71,6 +71,7 @@ Status serve(ViewSite& site, int port, FunctionRef<void(int port)> ready)
         (void)::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     });
     server.set_keep_alive_timeout(1); // an end waits for it
+    server.set_read_timeout(2);
     server.set_pre_routing_handler([&site](const httplib::Request& request, httplib::Response& response) {
         respond(site, request, response);
         return httplib::Server::HandlerResponse::Handled;

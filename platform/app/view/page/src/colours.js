@@ -32,13 +32,16 @@ const kPainters = {
     confidence: ({ cloud }) => (i) => viridis(cloud.confidence[i]),
 };
 
-/// Three bytes a point. `seen`: cloud, plants (null: not known), heights and highest in mm (null: no ground). A mode for which
-/// something is missing is that of the true colours.
-export function coloursOf(mode, seen, chosenLeaf) {
+/// Four bytes a point, the last one 0 where it is hidden. `seen`: cloud, plants (null: not known), heights and highest in mm
+/// (null: no ground). A mode for which something is missing is that of the true colours.
+export function coloursOf(mode, seen, { chosenLeaf, plantsAlone }) {
     const painter = kPainters[canShow(mode, seen) ? mode : "colour"](seen);
-    const colours = new Uint8Array(3 * seen.cloud.count);
-    for (let i = 0; i < seen.cloud.count; ++i)
-        colours.set(chosenLeaf && seen.plants.leaf[i] === chosenLeaf ? kChosen : painter(i), 3 * i);
+    const colours = new Uint8Array(4 * seen.cloud.count);
+    const { plants } = seen;
+    for (let i = 0; i < seen.cloud.count; ++i) {
+        colours.set(chosenLeaf && plants.leaf[i] === chosenLeaf ? kChosen : painter(i), 4 * i);
+        colours[4 * i + 3] = plantsAlone && plants && plants.plant[i] === 0 ? 0 : 255;
+    }
     return colours;
 }
 

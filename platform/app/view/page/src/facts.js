@@ -1,6 +1,6 @@
 // What is known of a snapshot: its plants, its leaves, its record.
 import { leafColour } from "./colours.js";
-import { counted, element, measured } from "./format.js";
+import { element, measured } from "./format.js";
 
 const kPlantRows = [
     ["height, 99th percentile", "height_p99_mm", "mm", 1],
@@ -68,12 +68,12 @@ function leafTable(leaves, chosenLeaf, choose) {
 }
 
 /// `snapshot`: snapshot.json.
-export function showRecord(into, snapshot, points) {
+export function showRecord(into, snapshot) {
     const { record, slot, files } = snapshot;
-    const rows = [["points", counted(points, "point")]];
+    const rows = slot.points === null ? [] : [["points", slot.points.toLocaleString("en")]];
     const add = (name, value, unit = "") => value !== undefined && value !== null && rows.push([name, `${value}${unit}`]);
     add("clock", slot.clock_trust);
-    add("points per file", record?.cloud?.bits_per_point?.toFixed?.(1), " bits each");
+    add("size", slot.bytes ? Math.round(slot.bytes / 1024).toLocaleString("en") : null, " KiB");
     add("method", record?.cloud?.method);
     add("skew", record?.shot?.skew_us, " µs");
     add("calibration", record?.calibration_id);

@@ -17,7 +17,7 @@ export const clockOf = (seconds) => (seconds === null ? "" : utc(seconds).slice(
 export const timeOf = (seconds) => (seconds === null ? "time not known" : `${dayOf(seconds)} ${utc(seconds).slice(11, 19)} UTC`);
 
 export const mm = (value) => `${value.toFixed(1)} mm`;
-export const counted = (count, what) => `${count.toLocaleString("en")} ${what}${count === 1 ? "" : "s"}`;
+export const counted = (count, one, several = `${one}s`) => `${count.toLocaleString("en")} ${count === 1 ? one : several}`;
 
 /// "12.3 ± 0.4", with as many decimals as the uncertainty has a meaning; "–" of what could not be measured.
 export function measured(trait, scale = 1) {

@@ -12,9 +12,10 @@ import { readBytes, readJson } from "./source.js";
 import { Timeline } from "./timeline.js";
 
 const kModes = ["colour", "leaf", "height", "confidence"];
-const kNoFrame = { origin_mm: [0, 0, 0], right: [1, 0, 0], away: [0, 0, 1], up: [0, -1, 0], known: false };
+// The camera's own frame, until a ground is known.
+const kNoPlace = { frame: { origin_mm: [0, 0, 0], right: [1, 0, 0], away: [0, 0, 1], up: [0, -1, 0], known: false }, grid: null };
 
-const state = { board: 0, mode: "colour", leaf: 0, seen: null, plants: null, work: 0 };
+const state = { board: 0, mode: "colour", plantsAlone: false, leaf: 0, seen: null, plants: null, work: 0, place: kNoPlace };
 let scene, measure;
 
 function say(message, { title = "", quiet = false } = {}) {
@@ -70,14 +71,14 @@ function paint() {
     }
     if (!seen || !scene)
         return;
-    scene.colour(coloursOf(state.mode, seen, state.leaf));
+    scene.colour(coloursOf(state.mode, seen, { chosenLeaf: state.leaf, plantsAlone: state.plantsAlone }));
     drawLegend(seen);
 }
 
 function drawLegend(seen) {
     const legend = byId("legend");
     if (!canShow(state.mode, seen) || state.mode === "colour" || state.mode === "leaf") {
-        const leaves = state.plants && state.mode === "leaf" ? counted(state.plants.facts.leaves.length, "leaf").replace("leafs", "leaves") : "";
+        const leaves = state.plants && state.mode === "leaf" ? counted(state.plants.facts.leaves.length, "leaf", "leaves") : "";
         legend.replaceChildren(leaves);
         return;
     }
@@ -87,13 +88,15 @@ function drawLegend(seen) {
     legend.replaceChildren(name, bar, element("div", "ends", ...ends.map((end) => element("span", "", end))));
 }
 
-/// mm above the ground; `highest`: of 99 in 100 points.
-function heightsOf(cloud, { origin_mm: o, up: u }) {
+/// mm above the ground; `highest`: of 99 in 100 points of the plants, or of all where there is none.
+function heightsOf(cloud, { origin_mm: o, up: u }, plant) {
     const heights = new Float32Array(cloud.count);
     for (let i = 0; i < cloud.count; ++i)
-        heights[i] = [0, 1, 2].reduce((sum, axis) => sum + u[axis] * (1000 * cloud.position[3 * i + axis] - o[axis]), 0);
-    const sample = heights.filter((_, i) => i % 16 === 0).sort();
-    return { heights, highest: Math.max(sample[Math.floor(sample.length * 0.99)], 1) };
+        heights[i] = u[0] * (1000 * cloud.position[3 * i] - o[0]) + u[1] * (1000 * cloud.position[3 * i + 1] - o[1])
+            + u[2] * (1000 * cloud.position[3 * i + 2] - o[2]);
+    const ofPlants = heights.filter((_, i) => plant[i] > 0);
+    const sorted = (ofPlants.length > 0 ? ofPlants : heights.slice()).sort();
+    return { heights, highest: Math.max(sorted[Math.floor(sorted.length * 0.99)], 1) };
 }
 
 // A snapshot
@@ -141,7 +144,8 @@ async function show(index) {
         say(flaw ? `${cloud.error} (${flaw})` : cloud.error, { title: "The cloud cannot be shown" });
     } else {
         state.seen = { cloud: cloud.value, plants: null, heights: null };
-        scene?.show(cloud.value, kNoFrame, null, null, true);
+        // It stands where the one before stood until its own ground is known.
+        scene?.show(cloud.value, state.place.frame, state.place.grid, () => false, state.place !== kNoPlace);
         paint();
     }
     const plants = await outcome(Promise.all([readJson(`${folder}/plants.json`), readBytes(`${folder}/leaves.bin`)]));
@@ -171,10 +175,11 @@ function addPlants(facts, bytes) {
     state.seen.plants = state.plants;
     const known = facts.ground.kind !== "none";
     if (known)
-        Object.assign(state.seen, heightsOf(cloud, facts.ground));
+        Object.assign(state.seen, heightsOf(cloud, facts.ground, state.plants.plant));
     pictures.link(facts.grid, cloud);
-    scene?.show(cloud, { ...facts.ground, known }, facts.grid.focal_px, [facts.grid.width, facts.grid.height], state.placed);
-    state.placed = true;
+    const keepView = state.place.grid !== null && state.place.frame.known === known;
+    state.place = { frame: { ...facts.ground, known }, grid: facts.grid };
+    scene?.show(cloud, state.place.frame, state.place.grid, (i) => state.plants.plant[i] > 0, keepView);
     paint();
     showTraits();
 }
@@ -190,6 +195,12 @@ const step = (by) => timeline.count > 0 && show(Math.min(Math.max(timeline.curre
 
 function setMode(mode) {
     state.mode = mode;
+    paint();
+}
+
+function setPlantsAlone(alone) {
+    state.plantsAlone = alone;
+    byId("alone").setAttribute("aria-pressed", String(alone));
     paint();
 }
 
@@ -219,6 +230,7 @@ const kKeys = {
     d: () => scene?.turn(0.1, 0),
     w: () => scene?.turn(0, 0.1),
     s: () => scene?.turn(0, -0.1),
+    p: () => setPlantsAlone(!state.plantsAlone),
     "+": () => scene?.near(0.9),
     "-": () => scene?.near(1 / 0.9),
     f: () => scene?.front(),
@@ -246,7 +258,7 @@ function listen() {
     for (const button of document.querySelectorAll("[data-mode]"))
         button.addEventListener("click", () => setMode(button.dataset.mode));
     const clicks = {
-        measure: () => setMeasuring(!measure?.on), front: () => scene?.front(), top: () => scene?.top(), theme: turnTheme,
+        measure: () => setMeasuring(!measure?.on), alone: () => setPlantsAlone(!state.plantsAlone), front: () => scene?.front(), top: () => scene?.top(), theme: turnTheme,
         previous: () => step(-1), next: () => step(1), help: kKeys["?"], keys_close: () => byId("keys").close(),
     };
     for (const [id, act] of Object.entries(clicks))
@@ -256,13 +268,14 @@ function listen() {
 
 async function openBoard(board) {
     state.board = board;
-    state.placed = false;
+    state.place = kNoPlace;
     const slots = await outcome(readJson(`data/${board}/slots.json`));
     if (slots.error) {
         say(slots.error, { title: "This board cannot be read" });
         return;
     }
     timeline.show(board, slots.value);
+    document.body.classList.toggle("single", timeline.count === 1);
     growth.open(board);
     if (timeline.count === 0)
         say("dicot snap makes one.", { title: "There is no snapshot yet", quiet: true });

@@ -1,9 +1,11 @@
 // The cloud in three dimensions. World: the ground's frame, z up, in mm.
 import {
-    BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments, Matrix4, PerspectiveCamera, Points, Scene as Stage,
-    ShaderMaterial, Vector3, WebGLRenderer,
+    BufferAttribute, BufferGeometry, ColorManagement, LineBasicMaterial, LineSegments, Matrix4, PerspectiveCamera, Points,
+    Scene as Stage, ShaderMaterial, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+
+ColorManagement.enabled = false; // colours of a cloud, and of the page, are sRGB already
 
 const kGridMm = 100;
 const kPickPx = 12;
@@ -13,13 +15,15 @@ const kVertex = `
 uniform float pixelsPerSlope; // of the canvas, at a distance of 1
 uniform float slopePerPixel;  // of the camera's picture
 uniform float least;
-attribute vec3 tint;
+attribute vec4 tint; // 0 in its last part: hidden
 varying vec3 shown;
 void main() {
     vec4 seen = modelViewMatrix * vec4(position, 1.0);
     gl_Position = projectionMatrix * seen;
     gl_PointSize = max(least, 1.25 * position.z * 1000.0 * slopePerPixel * pixelsPerSlope / -seen.z);
-    shown = tint;
+    shown = tint.rgb;
+    if (tint.a == 0.0)
+        gl_Position.w = -1.0;
 }`;
 const kFragment = `
 varying vec3 shown;
@@ -30,7 +34,7 @@ export class CloudScene {
         this.canvas = canvas;
         this.changed = changed; // called after each drawing
         this.renderer = new WebGLRenderer({ canvas, antialias: true });
-        this.renderer.outputColorSpace = "srgb-linear"; // colours of a cloud are sRGB already
+        this.renderer.outputColorSpace = "srgb-linear";
         this.stage = new Stage();
         this.camera = new PerspectiveCamera(45, 1, 1, 10000);
         this.camera.up.set(0, 0, 1);
@@ -45,9 +49,9 @@ export class CloudScene {
         new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
     }
 
-    /// `frame`: origin_mm, right, away, up, known. `focalPx`, `sizePx`: of the camera's picture, null: not known. `keepView`: the snapshot
-    /// is of the same place as the one before.
-    show(cloud, frame, focalPx, sizePx, keepView) {
+    /// `frame`: origin_mm, right, away, up, known. `grid`: of the camera's picture, null: not known. `subject(i)`: whether
+    /// people look for this point. `keepView`: the snapshot is of the same place as the one before.
+    show(cloud, frame, grid, subject, keepView) {
         this.clear();
         const { origin_mm: o, right: r, away: a, up: u } = frame;
         const dot = (axis) => -(axis[0] * o[0] + axis[1] * o[1] + axis[2] * o[2]);
@@ -57,16 +61,15 @@ export class CloudScene {
         this.cloud = cloud;
         const geometry = new BufferGeometry();
         geometry.setAttribute("position", new BufferAttribute(cloud.position, 3));
-        geometry.setAttribute("tint", new BufferAttribute(new Uint8Array(3 * cloud.count), 3, true));
+        geometry.setAttribute("tint", new BufferAttribute(new Uint8Array(4 * cloud.count), 4, true));
         this.points = new Points(geometry, this.material);
         this.points.matrixAutoUpdate = false;
         this.points.matrix.copy(this.world);
         this.points.frustumCulled = false;
         this.stage.add(this.points);
-        this.focalPx = focalPx ?? 1000;
-        this.sizePx = sizePx ?? [1000, 700];
-        this.material.uniforms.slopePerPixel.value = 1 / this.focalPx;
-        this.middle = this.medianPoint();
+        this.picture = grid ?? { width: 1000, height: 700, focal_px: 1000, cx_px: 500, cy_px: 350 };
+        this.material.uniforms.slopePerPixel.value = 1 / this.picture.focal_px;
+        this.middle = this.middleOf(subject);
         if (frame.known)
             this.drawGrid();
         if (!keepView || !this.looked)
@@ -85,9 +88,11 @@ export class CloudScene {
         this.draw();
     }
 
+    /// Four bytes a point; the last one is 0 where it is hidden.
     colour(colours) {
         const tint = this.points.geometry.getAttribute("tint");
         tint.array.set(colours);
+        this.tints = tint.array;
         tint.needsUpdate = true;
         this.draw();
     }
@@ -102,15 +107,17 @@ export class CloudScene {
         return new Vector3().fromArray(this.cloud.position, 3 * i).applyMatrix4(this.world);
     }
 
-    medianPoint() {
+    /// Where the optical axis of the whole picture is as far away as the subject.
+    middleOf(subject) {
         const { position, count } = this.cloud;
-        const step = Math.max(1, Math.floor(count / 5000));
-        return new Vector3(...[0, 1, 2].map((axis) => {
-            const values = [];
-            for (let i = 0; i < count; i += step)
-                values.push(position[3 * i + axis]);
-            return values.sort((one, other) => one - other)[values.length >> 1];
-        })).applyMatrix4(this.world);
+        const step = Math.max(1, Math.floor(count / 20000));
+        const away = [], all = [];
+        for (let i = 0; i < count; i += step)
+            (subject(i) ? away : all).push(position[3 * i + 2]);
+        const depths = (away.length > 0 ? away : all).sort((one, other) => one - other);
+        const z = depths[depths.length >> 1];
+        const { width, height, focal_px: focal, cx_px: cx, cy_px: cy } = this.picture;
+        return new Vector3((width / 2 - cx) / focal * z, (height / 2 - cy) / focal * z, z).applyMatrix4(this.world);
     }
 
     drawGrid() {
@@ -193,7 +200,7 @@ export class CloudScene {
         for (let i = 0; i < count; ++i) {
             const px = position[3 * i], py = position[3 * i + 1], pz = position[3 * i + 2];
             const w = all[3] * px + all[7] * py + all[11] * pz + all[15];
-            if (w <= this.camera.near)
+            if (w <= this.camera.near || this.tints[4 * i + 3] === 0)
                 continue;
             const dx = ((all[0] * px + all[4] * py + all[8] * pz + all[12]) / w + 1) / 2 * width - x;
             const dy = (1 - (all[1] * px + all[5] * py + all[9] * pz + all[13]) / w) / 2 * height - y;
@@ -216,8 +223,8 @@ export class CloudScene {
         this.renderer.setSize(width, height, true);
         this.camera.aspect = width / height;
         // The whole picture fits in, whatever is left of the screen.
-        const [widthPx, heightPx] = this.sizePx ?? [1000, 700];
-        const slope = Math.max(heightPx, widthPx / this.camera.aspect) / 2 / (this.focalPx ?? 1000);
+        const { width: widthPx, height: heightPx, focal_px: focalPx } = this.picture ?? { width: 1, height: 1, focal_px: 1 };
+        const slope = Math.max(heightPx, widthPx / this.camera.aspect) / 2 / focalPx;
         this.camera.fov = Math.atan(slope) * 360 / Math.PI;
         this.camera.updateProjectionMatrix();
         this.material.uniforms.pixelsPerSlope.value = height * window.devicePixelRatio / 2 / slope;
