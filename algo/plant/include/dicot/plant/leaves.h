@@ -1,9 +1,13 @@
 // The cloud of a view cut into plants and leaves.
 #pragma once
 
+#include "dicot/base/arena.h"
+#include "dicot/base/status.h"
 #include "dicot/plant/ground.h"
+#include "dicot/plant/plant_box.h"
 #include "dicot/plant/plant_view.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -21,5 +25,13 @@ struct Leaves
     int plant_count = 0;
     GroundFrame ground;
 };
+
+/// What segment_leaves() takes from an arena at most.
+std::size_t segment_leaves_bytes(const PlantView& view);
+
+/// Finds ground, canopy, plants and leaves: algo/plant/README.md. With `boxes` plant i + 1 is what stands in boxes[i];
+/// without, plants are told apart by the gaps between them. A cloud without anything green has no plants and no leaves.
+/// Leaves are numbered from left to right by plant. Fault::kConfig: `arena` is too small.
+Result<Leaves> segment_leaves(const PlantView& view, std::span<const PlantBox> boxes, Arena& arena);
 
 } // namespace dicot

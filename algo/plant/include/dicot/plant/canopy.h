@@ -1,0 +1,36 @@
+// What is green, above the ground, and which plant it belongs to.
+#pragma once
+
+#include "dicot/base/arena.h"
+#include "dicot/plant/ground.h"
+#include "dicot/plant/plant_box.h"
+#include "dicot/plant/plant_view.h"
+
+#include <cstdint>
+#include <span>
+
+namespace dicot {
+
+/// One number a point, in the cloud's order: 1 .. plant_count, or 0. Fruits, stems and green petioles are canopy too.
+struct Canopy
+{
+    std::span<std::uint8_t> plant;
+    int plant_count = 0;
+};
+
+/// The plane that the most points lie on with the fewest below it: bench, floor or lawn (Kind::kBench), from the foot
+/// of the camera's perpendicular, `away` as the camera looks. Kind::kNone where no plane within 65 degrees of the
+/// camera's down direction holds a tenth of the points.
+GroundFrame find_ground(const PlantView& view, Arena& arena);
+
+/// Green points above the ground, in groups with gaps of 80 mm between them, numbered from left to right; groups of less than
+/// a tenth of the largest are strays.
+Canopy find_canopy(const PlantView& view, const GroundFrame& ground, Arena& arena);
+
+/// Numbers the canopy by the box that holds a point, the first that does; what stands in none is no canopy.
+void put_in_boxes(const PlantView& view, const GroundFrame& ground, std::span<const PlantBox> boxes, Canopy& canopy);
+
+/// Where soil is seen under the canopy, z = 0 moves up to it (Kind::kSoil, bench_mm).
+void stand_on_soil(const PlantView& view, const Canopy& canopy, GroundFrame& ground, Arena& arena);
+
+} // namespace dicot

@@ -1,0 +1,229 @@
+#include "dicot/plant/canopy.h"
+#include "frame.h"
+#include "groups.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace dicot {
+namespace {
+
+/// Excess green (Woebbecke 1995) by the sum of the channels, so that light and shade are alike; and greener than red,
+/// which withered leaves, wood and soil are not.
+bool is_green(const Rgb8& colour)
+{
+    constexpr int kDark = 24; // of 765: noise has any hue
+    const int r = colour.r, g = colour.g, b = colour.b, sum = r + g + b;
+    return sum > kDark && 100 * (2 * g - r - b) > 18 * sum && 100 * (g - r) > 2 * sum;
+}
+
+/// How high above the ground the canopy begins. On a lawn the ground is green as well.
+double least_height_mm(const PlantView& view, const GroundFrame& ground)
+{
+    if (ground.kind == GroundFrame::Kind::kNone)
+        return -HUGE_VAL;
+    constexpr std::size_t kStride = 7;
+    int near = 0, green = 0;
+    for (std::size_t i = 0; i < view.cloud.points.size(); i += kStride) {
+        if (std::fabs(in_ground(ground, point_mm(view, i)).z) > 2 * ground.rms_mm)
+            continue;
+        ++near;
+        green += is_green(view.cloud.points[i].colour);
+    }
+    const bool lawn = green > 0.3 * near;
+    return lawn ? 15 + 4 * ground.rms_mm : 3 + 2 * ground.rms_mm;
+}
+
+/// Neighbours in the picture hang together where depth steps by less than 10 px are wide.
+bool hang_together(const CloudPoint& a, const CloudPoint& b, double focal_px)
+{
+    constexpr double kSteep = 10;
+    return std::fabs(double(a.z) - b.z) * focal_px < kSteep * std::min(a.z, b.z);
+}
+
+/// Marks with 1 what is green and above the ground, in patches that are no specks, and that were not guessed: background
+/// beyond the working range that is taken for something near has a mean confidence of 40 of 255, a leaf of 150.
+void find_green(const PlantView& view, const GroundFrame& ground, std::span<std::uint8_t> green, Arena& arena)
+{
+    constexpr int kSpeck = 60, kGuessed = 64;
+    const std::size_t mark = arena.used();
+    const std::span<const CloudPoint> points = view.cloud.points;
+    const std::span<std::int32_t> parent = arena.take<std::int32_t>(points.size());
+    const std::span<std::int32_t> size = arena.take<std::int32_t>(points.size());
+    const std::span<std::int32_t> confidence = arena.take<std::int32_t>(points.size());
+    const double least = least_height_mm(view, ground);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        green[i] = is_green(points[i].colour) && in_ground(ground, point_mm(view, i)).z > least;
+
+    Groups patches(parent);
+    const auto meet = [&](std::int32_t a, std::int32_t b) {
+        if (a == PlantView::kNoPoint || b == PlantView::kNoPoint)
+            return;
+        const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+        if (green[i] && green[j] && hang_together(points[i], points[j], view.focal_px))
+            patches.join(a, b);
+    };
+    for (int y = 0; y < view.point.height; ++y)
+        for (int x = 0; x < view.point.width; ++x) {
+            if (x > 0)
+                meet(view.point.at(x - 1, y), view.point.at(x, y));
+            if (y > 0)
+                meet(view.point.at(x, y - 1), view.point.at(x, y));
+        }
+    std::ranges::fill(size, 0);
+    std::ranges::fill(confidence, 0);
+    const auto patch_of = [&](std::size_t i) {
+        return static_cast<std::size_t>(patches.root(static_cast<std::int32_t>(i)));
+    };
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        ++size[patch_of(i)];
+        confidence[patch_of(i)] += points[i].confidence;
+    }
+    const bool known = std::ranges::any_of(points, [](const CloudPoint& point) { return point.confidence > 0; });
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::size_t patch = patch_of(i);
+        green[i] = green[i] && size[patch] >= kSpeck && (!known || confidence[patch] >= kGuessed * size[patch]);
+    }
+    arena.rewind(mark);
+}
+
+/// The canopy from above, in square cells.
+struct TopView
+{
+    static constexpr int kMostAcross = 512;
+
+    double cell_mm = 10;
+    double right_mm = 0, away_mm = 0; ///< of the first cell's corner
+    int width = 0, height = 0;
+
+    std::size_t cell(const Vec3& at) const
+    {
+        const int x = static_cast<int>((at.x - right_mm) / cell_mm), y = static_cast<int>((at.y - away_mm) / cell_mm);
+        return static_cast<std::size_t>(std::clamp(y, 0, height - 1)) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(std::clamp(x, 0, width - 1));
+    }
+    std::size_t cells() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+};
+
+TopView top_view(const PlantView& view, const GroundFrame& ground, std::span<const std::uint8_t> green)
+{
+    TopView top;
+    double least[2] = {HUGE_VAL, HUGE_VAL}, most[2] = {-HUGE_VAL, -HUGE_VAL};
+    for (std::size_t i = 0; i < green.size(); ++i) {
+        if (!green[i])
+            continue;
+        const Vec3 at = in_ground(ground, point_mm(view, i));
+        least[0] = std::min(least[0], at.x);
+        most[0] = std::max(most[0], at.x);
+        least[1] = std::min(least[1], at.y);
+        most[1] = std::max(most[1], at.y);
+    }
+    if (least[0] > most[0])
+        return top;
+    const double across = std::max(most[0] - least[0], most[1] - least[1]);
+    top.cell_mm = std::max(top.cell_mm, across / (TopView::kMostAcross - 1));
+    top.right_mm = least[0];
+    top.away_mm = least[1];
+    top.width = static_cast<int>((most[0] - least[0]) / top.cell_mm) + 1;
+    top.height = static_cast<int>((most[1] - least[1]) / top.cell_mm) + 1;
+    return top;
+}
+
+/// Joins cells with no more than kGapMm between them.
+void join_cells(const TopView& top, std::span<const std::int32_t> held, Groups& groups)
+{
+    constexpr double kGapMm = 80;
+    const int reach = std::max(1, static_cast<int>(kGapMm / top.cell_mm));
+    for (int y = 0; y < top.height; ++y)
+        for (int x = 0; x < top.width; ++x) {
+            const std::int32_t here = y * top.width + x;
+            if (held[static_cast<std::size_t>(here)] == 0)
+                continue;
+            for (int v = y; v <= std::min(y + reach, top.height - 1); ++v)
+                for (int u = std::max(0, x - reach); u <= std::min(x + reach, top.width - 1); ++u)
+                    if (held[static_cast<std::size_t>(v * top.width + u)] > 0)
+                        groups.join(here, v * top.width + u);
+        }
+}
+
+/// Numbers the groups that are large enough to be plants from left to right: [root] -> 1 .. n, else 0.
+int number_plants(const TopView& top, std::span<const std::int32_t> held, Groups& groups, std::span<std::int32_t> size,
+                  std::span<std::int32_t> column)
+{
+    constexpr int kLeastPoints = 200;
+    constexpr double kLeastShare = 0.1;
+    std::ranges::fill(size, 0);
+    std::ranges::fill(column, 0);
+    for (std::size_t cell = 0; cell < held.size(); ++cell) {
+        const auto root = static_cast<std::size_t>(groups.root(static_cast<std::int32_t>(cell)));
+        size[root] += held[cell];
+        column[root] += held[cell] * static_cast<std::int32_t>(cell % static_cast<std::size_t>(top.width));
+    }
+    const double least = std::max(double(kLeastPoints), kLeastShare * *std::ranges::max_element(size));
+    int count = 0;
+    while (count < UINT8_MAX) {
+        std::size_t next = held.size();
+        double where = HUGE_VAL;
+        for (std::size_t root = 0; root < held.size(); ++root)
+            if (size[root] >= least && double(column[root]) / size[root] < where) {
+                where = double(column[root]) / size[root];
+                next = root;
+            }
+        if (next == held.size())
+            break;
+        size[next] = -++count;
+    }
+    for (std::int32_t& group : size)
+        group = group < 0 ? -group : 0;
+    return count;
+}
+
+} // namespace
+
+Canopy find_canopy(const PlantView& view, const GroundFrame& ground, Arena& arena)
+{
+    Canopy canopy;
+    canopy.plant = arena.take<std::uint8_t>(view.cloud.points.size());
+    const std::size_t mark = arena.used();
+    if (arena.overrun())
+        return canopy;
+    find_green(view, ground, canopy.plant, arena);
+    const TopView top = top_view(view, ground, canopy.plant);
+    const std::span<std::int32_t> held = arena.take<std::int32_t>(top.cells());
+    const std::span<std::int32_t> parent = arena.take<std::int32_t>(top.cells());
+    const std::span<std::int32_t> number = arena.take<std::int32_t>(top.cells());
+    const std::span<std::int32_t> column = arena.take<std::int32_t>(top.cells());
+    if (!arena.overrun() && top.cells() > 0) {
+        std::ranges::fill(held, 0);
+        const auto cell_of = [&](std::size_t i) { return top.cell(in_ground(ground, point_mm(view, i))); };
+        for (std::size_t i = 0; i < canopy.plant.size(); ++i)
+            if (canopy.plant[i])
+                ++held[cell_of(i)];
+        Groups groups(parent);
+        join_cells(top, held, groups);
+        canopy.plant_count = number_plants(top, held, groups, number, column);
+        for (std::size_t i = 0; i < canopy.plant.size(); ++i)
+            if (canopy.plant[i])
+                canopy.plant[i] = static_cast<std::uint8_t>(
+                    number[static_cast<std::size_t>(groups.root(static_cast<std::int32_t>(cell_of(i))))]);
+    }
+    arena.rewind(mark);
+    return canopy;
+}
+
+void put_in_boxes(const PlantView& view, const GroundFrame& ground, std::span<const PlantBox> boxes, Canopy& canopy)
+{
+    canopy.plant_count = static_cast<int>(std::min<std::size_t>(boxes.size(), UINT8_MAX));
+    for (std::size_t i = 0; i < canopy.plant.size(); ++i) {
+        if (!canopy.plant[i])
+            continue;
+        const Vec3 at = in_ground(ground, point_mm(view, i));
+        const auto held = boxes.first(static_cast<std::size_t>(canopy.plant_count));
+        const auto box = std::ranges::find_if(held, [&](const PlantBox& b) { return b.holds({at.x, at.y, at.z}); });
+        canopy.plant[i] = box == held.end() ? std::uint8_t{0} : static_cast<std::uint8_t>(box - held.begin() + 1);
+    }
+}
+
+} // namespace dicot

@@ -1,0 +1,230 @@
+#include "surface.h"
+
+#include "frame.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace dicot {
+namespace {
+
+/// A surface is torn where depth, as the surface goes on from either side, jumps by more than this many widths of a
+/// pixel; or where it is steeper than any blade that a camera sees.
+constexpr float kJumpPx = 4, kSteepPx = 12;
+constexpr int kBridgePx = 5;
+
+/// Step in depth from one cell to another, in widths of a pixel.
+float step_px(const Surface& surface, float from, float to)
+{
+    return std::fabs(to - from) * 2 * static_cast<float>(surface.focal_px) / (to + from);
+}
+
+void frame_cells(Surface& surface, const PlantView& view, const Canopy& canopy)
+{
+    int left = view.point.width, right = -1, top = view.point.height, bottom = -1;
+    for (int y = 0; y < view.point.height; ++y)
+        for (int x = 0; x < view.point.width; ++x) {
+            const std::int32_t i = view.point.at(x, y);
+            if (i == PlantView::kNoPoint || canopy.plant[static_cast<std::size_t>(i)] == 0)
+                continue;
+            left = std::min(left, x);
+            right = std::max(right, x);
+            top = std::min(top, y);
+            bottom = std::max(bottom, y);
+        }
+    if (right < 0)
+        return;
+    surface.left = left - Surface::kMargin;
+    surface.top = top - Surface::kMargin;
+    surface.width = right - left + 1 + 2 * Surface::kMargin;
+    surface.height = bottom - top + 1 + 2 * Surface::kMargin;
+}
+
+void fill_cells(const Surface& surface, const PlantView& view, const Canopy& canopy)
+{
+    for (std::size_t i = 0; i < surface.cells(); ++i) {
+        const std::int32_t index = surface.point(view, i);
+        surface.cell[i] = Surface::kNothing;
+        surface.inverse[i] = 0;
+        if (index == PlantView::kNoPoint)
+            continue;
+        const auto point = static_cast<std::size_t>(index);
+        surface.cell[i] = canopy.plant[point] == 0 ? Surface::kOther : Surface::kPoint;
+        surface.inverse[i] = static_cast<float>(view.focal_px / point_mm(view, point).z);
+    }
+}
+
+template <typename Do>
+void for_each_inner(const Surface& surface, const Do& act)
+{
+    for (int y = 1; y + 1 < surface.height; ++y)
+        for (int x = 1; x + 1 < surface.width; ++x)
+            act(x, y, static_cast<std::size_t>(y) * static_cast<std::size_t>(surface.width) + static_cast<std::size_t>(x));
+}
+
+/// Medians of 3 x 3 take single wrong depths away and keep jumps.
+void smooth(const Surface& surface, std::span<float> smoothed)
+{
+    std::ranges::copy(surface.inverse, smoothed.begin());
+    for_each_inner(surface, [&](int, int, std::size_t i) {
+        if (surface.cell[i] != Surface::kPoint)
+            return;
+        std::array<float, 9> near;
+        std::ptrdiff_t count = 0;
+        for (int v = -1; v <= 1; ++v)
+            for (int u = -1; u <= 1; ++u) {
+                const std::size_t j = i + static_cast<std::size_t>(v * surface.width + u);
+                if (surface.cell[j] == Surface::kPoint)
+                    near[static_cast<std::size_t>(count++)] = surface.inverse[j];
+            }
+        std::nth_element(near.begin(), near.begin() + count / 2, near.begin() + count);
+        smoothed[i] = near[static_cast<std::size_t>(count / 2)];
+    });
+    std::ranges::copy(smoothed, surface.inverse.begin());
+}
+
+/// Cells without a point between two points on opposite sides, not far apart and of about one depth.
+void bridge(const Surface& surface, std::span<float> inverse, std::span<std::uint8_t> cell)
+{
+    constexpr int kWays[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
+    std::ranges::copy(surface.inverse, inverse.begin());
+    std::ranges::copy(surface.cell, cell.begin());
+    for_each_inner(surface, [&](int x, int y, std::size_t i) {
+        if (surface.cell[i] != Surface::kNothing)
+            return;
+        // Cells from here to the first that holds a point of the canopy; 0: none near.
+        const auto reach = [&](int dx, int dy) {
+            for (int k = 1; k <= kBridgePx; ++k) {
+                const int u = x + k * dx, v = y + k * dy;
+                if (u < 0 || v < 0 || u >= surface.width || v >= surface.height)
+                    return 0;
+                const std::size_t j = i + static_cast<std::size_t>(k * (dy * surface.width + dx));
+                if (surface.cell[j] == Surface::kPoint)
+                    return k;
+                if (surface.cell[j] == Surface::kOther)
+                    return 0;
+            }
+            return 0;
+        };
+        int shortest = kBridgePx + 2;
+        for (const auto& [dx, dy] : kWays) {
+            const int back = reach(-dx, -dy), forth = reach(dx, dy);
+            if (back == 0 || forth == 0 || back + forth >= shortest)
+                continue;
+            const int stride = dy * surface.width + dx;
+            const float a = surface.inverse[i - static_cast<std::size_t>(back * stride)];
+            const float b = surface.inverse[i + static_cast<std::size_t>(forth * stride)];
+            if (step_px(surface, a, b) > kJumpPx / 2 + static_cast<float>(back + forth))
+                continue;
+            shortest = back + forth;
+            inverse[i] = (a * static_cast<float>(forth) + b * static_cast<float>(back)) / static_cast<float>(shortest);
+            cell[i] = Surface::kBridge;
+        }
+    });
+    std::ranges::copy(inverse, surface.inverse.begin());
+    std::ranges::copy(cell, surface.cell.begin());
+}
+
+/// Whether the surface ends between cell i and the one `stride` further.
+bool is_torn(const Surface& surface, std::size_t i, std::size_t stride)
+{
+    const std::size_t j = i + stride;
+    if (!surface.holds(j))
+        return true;
+    if (surface.cell[i] == Surface::kBridge || surface.cell[j] == Surface::kBridge)
+        return false;
+    const float a = surface.inverse[i], b = surface.inverse[j];
+    const float plain = step_px(surface, a, b);
+    if (plain > kSteepPx)
+        return true;
+    if (plain < kJumpPx)
+        return false;
+    float least = std::fabs(b - a);
+    if (surface.holds(i - 2 * stride))
+        least = std::min(least, std::fabs(b - a - (a - surface.inverse[i - 2 * stride]) / 2));
+    if (surface.holds(j + 2 * stride))
+        least = std::min(least, std::fabs(b - a - (surface.inverse[j + 2 * stride] - b) / 2));
+    return least * 2 * static_cast<float>(surface.focal_px) > kJumpPx * (a + b);
+}
+
+void tear(const Surface& surface)
+{
+    const auto below = static_cast<std::size_t>(surface.width);
+    std::ranges::fill(surface.torn, std::uint8_t{0});
+    const auto mark = [&](std::size_t i, std::uint8_t bit) {
+        surface.torn[i] = static_cast<std::uint8_t>(surface.torn[i] | bit);
+    };
+    for_each_inner(surface, [&](int, int, std::size_t i) {
+        if (!surface.holds(i))
+            return;
+        if (is_torn(surface, i, 1)) {
+            mark(i, Surface::kRight);
+            mark(i + 1, Surface::kLeft);
+        }
+        if (is_torn(surface, i, below)) {
+            mark(i, Surface::kBelow);
+            mark(i + below, Surface::kAbove);
+        }
+        if (!surface.holds(i - 1))
+            mark(i, Surface::kLeft);
+        if (!surface.holds(i - below))
+            mark(i, Surface::kAbove);
+    });
+}
+
+void measure_inside(const Surface& surface)
+{
+    constexpr int kAtTear = 3, kStraight = 5, kAcross = 7;
+    const auto below = static_cast<std::size_t>(surface.width);
+    const std::span<std::int16_t> inside = surface.inside_px5;
+    for (std::size_t i = 0; i < surface.cells(); ++i)
+        inside[i] = !surface.holds(i) ? std::int16_t{0} : surface.torn[i] ? std::int16_t{kAtTear} : INT16_MAX;
+    const auto lower = [&](std::size_t i, std::size_t j, int way) {
+        inside[i] = static_cast<std::int16_t>(std::min<int>(inside[i], inside[j] + way));
+    };
+    const std::size_t first = below + 1, last = surface.cells() - below - 1;
+    for (std::size_t i = first; i < last; ++i) {
+        if (!surface.holds(i))
+            continue;
+        lower(i, i - 1, kStraight);
+        lower(i, i - below, kStraight);
+        lower(i, i - below - 1, kAcross);
+        lower(i, i - below + 1, kAcross);
+    }
+    for (std::size_t i = last; i-- > first;) {
+        if (!surface.holds(i))
+            continue;
+        lower(i, i + 1, kStraight);
+        lower(i, i + below, kStraight);
+        lower(i, i + below + 1, kAcross);
+        lower(i, i + below - 1, kAcross);
+    }
+}
+
+} // namespace
+
+Surface surface_of(const PlantView& view, const Canopy& canopy, Arena& arena)
+{
+    Surface surface;
+    surface.focal_px = view.focal_px;
+    frame_cells(surface, view, canopy);
+    surface.cell = arena.take<std::uint8_t>(surface.cells());
+    surface.inverse = arena.take<float>(surface.cells());
+    surface.torn = arena.take<std::uint8_t>(surface.cells());
+    surface.inside_px5 = arena.take<std::int16_t>(surface.cells());
+    const std::size_t mark = arena.used();
+    const std::span<float> floats = arena.take<float>(surface.cells());
+    const std::span<std::uint8_t> bytes = arena.take<std::uint8_t>(surface.cells());
+    if (arena.overrun() || surface.cells() == 0)
+        return surface;
+    fill_cells(surface, view, canopy);
+    smooth(surface, floats);
+    bridge(surface, floats, bytes);
+    arena.rewind(mark);
+    tear(surface);
+    measure_inside(surface);
+    return surface;
+}
+
+} // namespace dicot
