@@ -54,7 +54,8 @@ Sections sections_of(std::span<const Place> places, double spacing_mm)
     return sections;
 }
 
-/// Through the middles of the inner four fifths; the ends, where one border cell more or less counts most, are left out.
+/// Through the middles of the inner four fifths; the ends, where one border cell more or less counts most, are left
+/// out.
 Parabola midrib_of(const Sections& sections)
 {
     std::array<Sample, kMostSections> samples;

@@ -53,12 +53,11 @@ InverseDepth plane_through(const Sums& s, double own)
 class Smoother
 {
 public:
-    Smoother(const PlantView& view, const Leaves& leaves) : view_(view), leaves_(leaves), step_mm_(view.mm_per_step()) {}
-
-    double z_mm(std::int32_t point) const
+    Smoother(const PlantView& view, const Leaves& leaves) : view_(view), leaves_(leaves), step_mm_(view.mm_per_step())
     {
-        return view_.cloud.points[static_cast<std::size_t>(point)].z * step_mm_;
     }
+
+    double z_mm(std::int32_t point) const { return view_.cloud.points[static_cast<std::size_t>(point)].z * step_mm_; }
     int leaf_at(int column, int row) const
     {
         const std::int32_t point = view_.point.at(column, row);
@@ -80,8 +79,8 @@ public:
         const double across = std::sqrt(a * a + b * b + c * c);
         const double area = std::min(z * across, kSteepest) * z * z / (view_.focal_px * view_.focal_px);
         const double upright = std::fabs(dot({a, b, c}, vec3(leaves_.ground.up))) / across;
-        return {static_cast<float>(x * z),  static_cast<float>(y * z),          static_cast<float>(z),
-                static_cast<float>(area), static_cast<float>(area * upright), point};
+        return {static_cast<float>(x * z), static_cast<float>(y * z),          static_cast<float>(z),
+                static_cast<float>(area),  static_cast<float>(area * upright), point};
     }
 
 private:

@@ -34,7 +34,8 @@ struct Memory
 Memory lay_out(std::size_t points, Arena& arena)
 {
     constexpr std::size_t kCells = std::size_t{kMostAcross} * kMostAcross;
-    return {arena.take<float>(points), arena.take<RasterCell>(kCells), arena.take<GridPoint>(2 * std::min(kCells, points))};
+    return {arena.take<float>(points), arena.take<RasterCell>(kCells),
+            arena.take<GridPoint>(2 * std::min(kCells, points))};
 }
 
 struct Reach
@@ -70,7 +71,8 @@ private:
 /// The least of the highest `count`.
 double highest(std::span<float> heights, std::size_t count)
 {
-    const auto at = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() - std::clamp<std::size_t>(count, 1, heights.size()));
+    const auto at = heights.begin() +
+                    static_cast<std::ptrdiff_t>(heights.size() - std::clamp<std::size_t>(count, 1, heights.size()));
     std::nth_element(heights.begin(), at, heights.end());
     return *at;
 }
@@ -164,10 +166,12 @@ void measure_plant(const PlantView& view, const Leaves& leaves, const LeafSurfac
 
     double projected = 0;
     std::size_t extremes = 0;
-    // The hull counts in steps of the cloud's grid, or in coarser ones where the plant reaches farther than those count.
+    // The hull counts in steps of the cloud's grid, or in coarser ones where the plant reaches farther than those
+    // count.
     const double grid_mm = std::max(step_mm, 2 * span / kHullReach);
     const auto on_grid = [&](double mm) {
-        return static_cast<std::int32_t>(std::clamp(std::floor(mm / grid_mm + 0.5), -double(kHullReach), double(kHullReach)));
+        return static_cast<std::int32_t>(
+            std::clamp(std::floor(mm / grid_mm + 0.5), -double(kHullReach), double(kHullReach)));
     };
     for (const RasterCell& cell : raster) {
         projected += std::min<double>(cell.covered_mm2, cell_mm * cell_mm);
