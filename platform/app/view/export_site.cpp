@@ -69,7 +69,7 @@ Status write_answer(const std::string& folder, const std::string& path, const An
 Status export_site(ViewSite& site, const std::string& folder)
 {
     TRY(make_folder(folder));
-    site.finish_growth();
+    site.wait_for_growth();
     const std::vector<std::string> paths = site.paths();
     Progress bar("exporting");
     for (std::size_t i = 0; i < paths.size(); ++i) {

@@ -1,53 +1,51 @@
-// The traits of a whole board, measured beside what a person looks at, and the curves through them.
+// The growth of a board, measured beside what a person looks at.
 #pragma once
 
-#include "view_board.h"
+#include "../store/store_words.h"
 
-#include "dicot/plant/traits.h"
+#include <nlohmann/json.hpp>
 
-#include <nlohmann/json_fwd.hpp>
-
-#include <atomic>
-#include <memory>
+#include <condition_variable>
+#include <cstdint>
 #include <mutex>
-#include <string>
+#include <optional>
 #include <thread>
-#include <vector>
 
 namespace dicot::app {
 
-/// A board's snapshots are measured one after the other, first some of the whole time, then those between them.
+/// Its thread measures the newest slots first, then four times as many, and so on; what is measured stays in the cache
+/// of `dicot traits`.
 class GrowthJob
 {
 public:
-    explicit GrowthJob(std::shared_ptr<const ViewBoard> board);
+    /// `last`: only so many slots, the newest.
+    GrowthJob(DeviceFolder board, std::optional<std::int64_t> last);
     GrowthJob(const GrowthJob&) = delete;
     GrowthJob& operator=(const GrowthJob&) = delete;
-    ~GrowthJob(); ///< leaves the rest undone
+    ~GrowthJob(); ///< waits until as many slots are measured as were begun with, or a StopRequest is asked
 
+    const DeviceFolder& board() const { return board_; }
     /// What is known by now (README.md, "What the page reads"); the first question begins the work.
     nlohmann::json curves();
-    /// All of it, or as far as it came when somebody wanted an end.
-    void finish();
+    /// The same of all slots, or as far as it came when somebody wanted an end.
+    nlohmann::json all_curves();
+    /// There may be more slots than there were.
+    void look_again();
 
 private:
-    struct MeasuredSlot
-    {
-        const SlotRow* row = nullptr;
-        std::vector<PlantTraits> plants;
-        std::vector<std::string> names;
-    };
-
-    void work();
     void begin();
+    void work();
+    /// Whether there are more slots.
+    bool measure(std::int64_t slots);
 
-    std::shared_ptr<const ViewBoard> board_;
-    std::vector<const SlotRow*> order_;
-    std::atomic<bool> ended_{false};
+    DeviceFolder board_;
+    std::optional<std::int64_t> last_;
     std::mutex guard_; ///< what stands below
-    std::vector<MeasuredSlot> measured_;
-    std::size_t tried_ = 0;
-    bool begun_ = false;
+    std::condition_variable told_;
+    nlohmann::json curves_;
+    bool working_ = false;
+    bool complete_ = false;
+    bool ending_ = false;
     std::thread thread_;
 };
 

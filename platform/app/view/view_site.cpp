@@ -4,6 +4,7 @@
 #include "../pull/archive_folder.h"
 #include "../store/shown.h"
 #include "../store/slot_words.h"
+#include "curves_json.h"
 #include "plants_json.h"
 #include "seen_pictures.h"
 
@@ -81,24 +82,38 @@ Result<std::unique_ptr<ViewSite>> ViewSite::open(const std::string& path, std::o
     return site;
 }
 
+/// What was measured of a board before it is looked at again stays measured.
+ViewSite::Board ViewSite::open_folder(const DeviceFolder& folder)
+{
+    Board board{{}, folder.device, nullptr, nullptr};
+    Result<ViewBoard> opened = ViewBoard::of_folder(folder, last_);
+    if (!opened.ok()) {
+        board.opened = opened.status();
+        return board;
+    }
+    board.slots = std::make_shared<const ViewBoard>(std::move(opened).value());
+    const std::scoped_lock lock(looking_);
+    for (const Board& known : boards_)
+        if (known.growth && known.growth->board().path == folder.path)
+            board.growth = known.growth;
+    if (board.growth)
+        board.growth->look_again();
+    else
+        board.growth = std::make_shared<GrowthJob>(folder, last_);
+    return board;
+}
+
 Status ViewSite::look()
 {
     std::vector<Board> boards;
-    const auto add = [&boards](const std::string& name, Result<ViewBoard> opened) {
-        Board board{opened.ok() ? Status{} : opened.status(), name, nullptr, nullptr};
-        if (opened.ok()) {
-            board.slots = std::make_shared<const ViewBoard>(std::move(opened).value());
-            board.name = board.slots->name();
-            board.growth = std::make_shared<GrowthJob>(board.slots);
-        }
-        boards.push_back(std::move(board));
-    };
     std::error_code error;
-    if (fs::is_regular_file(path_, error))
-        add("", TRY(ViewBoard::of_cloud(path_)));
-    else
+    if (fs::is_regular_file(path_, error)) {
+        auto slots = std::make_shared<const ViewBoard>(TRY(ViewBoard::of_cloud(path_)));
+        boards.push_back({{}, slots->name(), slots, nullptr});
+    } else {
         for (const DeviceFolder& folder : TRY(boards_of_archive(path_)))
-            add(folder.device, ViewBoard::of_folder(folder, last_));
+            boards.push_back(open_folder(folder));
+    }
     const std::scoped_lock lock(looking_);
     std::swap(boards_, boards);
     thumbnails_.clear();
@@ -150,7 +165,9 @@ Answer ViewSite::of_board(const Board& board, std::string_view file)
     if (file == "slots.json")
         return answer_of(board.slots->slots_json());
     if (file == "curves.json")
-        return answer_of(board.growth->curves());
+        return answer_of(!board.growth       ? no_curves()
+                         : waits_for_growth_ ? board.growth->all_curves()
+                                             : board.growth->curves());
     return not_there();
 }
 
@@ -248,19 +265,6 @@ std::vector<std::string> ViewSite::paths()
         }
     }
     return all;
-}
-
-void ViewSite::finish_growth()
-{
-    std::vector<std::shared_ptr<GrowthJob>> jobs;
-    {
-        const std::scoped_lock lock(looking_);
-        for (const Board& board : boards_)
-            if (board.growth)
-                jobs.push_back(board.growth);
-    }
-    for (const auto& job : jobs)
-        job->finish();
 }
 
 } // namespace dicot::app

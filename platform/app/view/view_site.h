@@ -40,8 +40,8 @@ public:
     Answer answer(std::string_view path);
     /// All paths that are there, but for the page.
     std::vector<std::string> paths();
-    /// Waits until every snapshot is measured, or somebody wants an end.
-    void finish_growth();
+    /// Answers about growth wait until every snapshot is measured.
+    void wait_for_growth() { waits_for_growth_ = true; }
 
 private:
     struct Board
@@ -49,7 +49,7 @@ private:
         Status opened;
         std::string name;
         std::shared_ptr<const ViewBoard> slots; ///< null: `opened` says why
-        std::shared_ptr<GrowthJob> growth;
+        std::shared_ptr<GrowthJob> growth;      ///< null: a cloud alone has none
     };
     /// What is made of one cloud.
     struct Seen
@@ -59,6 +59,7 @@ private:
 
     ViewSite(std::string path, std::optional<std::int64_t> last) : path_(std::move(path)), last_(last) {}
     Status look();
+    Board open_folder(const DeviceFolder& folder);
     Answer archive();
     Answer of_board(const Board& board, std::string_view file);
     Answer of_slot(const Board& board, const SlotRow& row, std::string_view file, const std::string& path);
@@ -67,6 +68,7 @@ private:
 
     std::string path_;
     std::optional<std::int64_t> last_;
+    bool waits_for_growth_ = false;
     std::mutex looking_; ///< boards_ and what is kept
     std::vector<Board> boards_;
     Recent<Answer> thumbnails_{2000};

@@ -5,6 +5,8 @@ import { leafColour } from "./colours.js";
 const kHeight = 150;
 const kLeft = 56, kRight = 12, kTop = 8, kBottom = 30;
 const kMostGaps = 400;
+const kMostDots = 1500;
+const kDay = 86400; // s
 const kSvg = "http://www.w3.org/2000/svg";
 
 function shape(name, attributes, words) {
@@ -28,6 +30,17 @@ function ticks(least, most, about) {
     for (let at = Math.ceil(least / step) * step; at <= most + 1e-9 * step; at += step)
         all.push(at);
     return { all, decimals: Math.max(0, -Math.floor(Math.log10(step))) };
+}
+
+/// Midnights, UTC, as many days apart as there is room for; of less than a day both ends.
+function timeTicks(first, last, most) {
+    if (last - first <= kDay)
+        return last > first ? [first, last] : [first];
+    const step = Math.ceil((last - first) / kDay / most) * kDay;
+    const all = [];
+    for (let time = Math.ceil(first / kDay) * kDay; time <= last; time += step)
+        all.push(time);
+    return all;
 }
 
 const colourOf = (plant) => `rgb(${leafColour(plant + 1)})`;
@@ -56,12 +69,9 @@ export function drawCurves(into, curves, key, misses, now, chosen) {
         svg.append(shape("text", { x: kLeft - 6, y: y(at / trait.scale) + 4, "text-anchor": "end" }, at.toFixed(marks.decimals)));
     }
     svg.append(shape("text", { x: 4, y: kTop + 4 }, trait.unit));
-    const steps = Math.max(1, Math.min(6, Math.floor(width / 130)));
-    for (let i = 0; i <= (last > first ? steps : 0); ++i) {
-        const time = first + (last - first) * i / steps;
-        const words = last - first > 3 * 86400 ? dayOf(time) : `${dayOf(time).slice(5)} ${clockOf(time)}`;
-        svg.append(shape("text", { x: x(time), y: kHeight - 4, "text-anchor": i === 0 ? "start" : i === steps ? "end" : "middle" }, words));
-    }
+    for (const time of timeTicks(first, last, Math.max(1, Math.floor(width / 130))))
+        svg.append(shape("text", { x: x(time), y: kHeight - 4, "text-anchor": x(time) > width - 60 ? "end" : x(time) < 60 ? "start" : "middle" },
+            last - first > kDay ? dayOf(time) : `${dayOf(time).slice(5)} ${clockOf(time)}`));
     for (const miss of thinned(misses, x))
         svg.append(shape("line", { class: "gap", x1: x(miss.time), x2: x(miss.time), y1: kHeight - kBottom + 2, y2: kHeight - kBottom + 8 },
             `${timeOf(miss.time)}: ${miss.reason}`));
@@ -91,10 +101,11 @@ function drawPlant(svg, plant, series, colour, x, y, trait, chosen) {
             }));
         }
     }
+    const stride = Math.ceil(series.value.length / kMostDots);
     series.value.forEach((value, i) => {
-        if (value === null || series.time_s[i] === null)
-            return;
         const outlier = series.outlier[i] === "1";
+        if (value === null || (i % stride !== 0 && !outlier))
+            return;
         const words = `${plant.name}, ${timeOf(series.time_s[i])}: ${measured({ value, sd: series.sd[i] }, trait.scale)} ${trait.unit}`
             + (outlier ? ", outlier" : "");
         const dot = shape("circle", {

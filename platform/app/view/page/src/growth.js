@@ -24,13 +24,12 @@ export class Growth {
                 if (asked !== this.asked)
                     return;
                 this.take(curves);
-                const { done, of } = curves;
-                words = done < of ? `${done} of ${counted(of, "snapshot")} measured` : "";
+                words = curves.error ?? (curves.complete || curves.slots === 0 ? "" : `the newest ${counted(curves.slots, "slot")} so far`);
             } catch (error) {
                 words = error.message;
             }
             byId("progress").textContent = words;
-            if (!this.curves || this.curves.done >= this.curves.of || isExported)
+            if (!this.curves || this.curves.complete || isExported)
                 return;
             await new Promise((resolve) => setTimeout(resolve, kAgainMs));
             if (asked !== this.asked)
