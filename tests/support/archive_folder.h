@@ -55,9 +55,10 @@ private:
     void record(const std::filesystem::path& folder, int sequence, const std::string& when, const std::string& outcome)
     {
         std::ofstream(folder / "record.json")
-            << R"({"format": "dicot record 1", "sequence": )" << sequence << R"(, "time": ")" << when << R"(", "due": ")"
-            << when << R"(", "clock": {"trust": "synchronised"}, "parameters": {"schedule": {"timezone": ")"
-            << timezone_ << R"("}}, )" << outcome << "}";
+            << R"({"format": "dicot record 1", "sequence": )" << sequence << R"(, "time": ")" << when
+            << R"(", "due": ")" << when
+            << R"(", "clock": {"trust": "synchronised"}, "parameters": {"schedule": {"timezone": ")" << timezone_
+            << R"("}}, )" << outcome << "}";
         std::set<std::filesystem::path> files;
         for (const auto& entry : std::filesystem::directory_iterator(folder))
             files.insert(entry.path());

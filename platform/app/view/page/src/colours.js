@@ -4,7 +4,6 @@
 const kViridis = ["440154", "481a6c", "472f7d", "414487", "39568c", "31688e", "2a788e", "23888e", "1f988b", "22a884",
     "35b779", "54c568", "7ad151", "a5db36", "d2e21b", "fde725"].map((hex) => [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16)));
 
-const kGround = [112, 112, 112];
 const kStem = [150, 165, 150];
 const kChosen = [255, 64, 160];
 
@@ -25,9 +24,16 @@ export function leafColour(leaf) {
     });
 }
 
+/// What is no plant stays to be seen, and steps back.
+function greyOf(cloud, i) {
+    const [r, g, b] = cloud.colour.subarray(3 * i, 3 * i + 3);
+    const grey = 60 + (0.299 * r + 0.587 * g + 0.114 * b) / 2;
+    return [grey, grey, grey];
+}
+
 const kPainters = {
     colour: ({ cloud }) => (i) => cloud.colour.subarray(3 * i, 3 * i + 3),
-    leaf: ({ plants }) => (i) => (plants.leaf[i] ? leafColour(plants.leaf[i]) : plants.plant[i] ? kStem : kGround),
+    leaf: ({ cloud, plants }) => (i) => (plants.leaf[i] ? leafColour(plants.leaf[i]) : plants.plant[i] ? kStem : greyOf(cloud, i)),
     height: ({ heights, highest }) => (i) => viridis(heights[i] / highest),
     confidence: ({ cloud }) => (i) => viridis(cloud.confidence[i]),
 };
