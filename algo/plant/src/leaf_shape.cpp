@@ -205,7 +205,8 @@ public:
                 const double gap = double(sorted[at].across) - double(sorted[at - 1].across);
                 covered += gap > bridge ? shape_.across_spacing_mm : gap;
             }
-            const double chord = double(sorted[at - 1].across) - double(sorted[first].across) + shape_.across_spacing_mm;
+            const double chord =
+                double(sorted[at - 1].across) - double(sorted[first].across) + shape_.across_spacing_mm;
             const double slope = profile.slope + 2 * profile.bend * sections_.along(i);
             area += covered * across_mm(i) / chord * sections_.step * std::sqrt(1 + slope * slope);
         }

@@ -118,7 +118,8 @@ void measure_leaf(const PlantView& view, const Leaves& leaves, const LeafSurface
     const double tilt = root_of_squares(two * gaps.noise_mm / std::max(1.0, shape.width_mm),
                                         leaves.ground.height_sd_mm / std::max(1.0, shape.length_mm));
     leaf.inclination_deg = {std::acos(upright) * kDegrees, tilt * kDegrees};
-    const double to_right = dot(points_to, vec3(leaves.ground.right)), to_back = dot(points_to, vec3(leaves.ground.away));
+    const double to_right = dot(points_to, vec3(leaves.ground.right)),
+                 to_back = dot(points_to, vec3(leaves.ground.away));
     const double level = root_of_squares(to_right, to_back);
     const double azimuth = std::atan2(to_back, to_right) * kDegrees;
     if (level > 0)
@@ -145,8 +146,8 @@ void sum_up(const PlantView& view, const Leaves& leaves, const LeafSurfaces& sur
         slant_variance += leaf.area_mm2.value * leaf.area_mm2.value * leaf.inclination_deg.sd * leaf.inclination_deg.sd;
     }
     plant.leaf_area_visible_mm2 = visible_area(view, leaves, surfaces, plant.plant);
-    plant.inclination_mean_deg = weight > 0 ? Measured{slant / weight, std::sqrt(slant_variance) / weight}
-                                            : Measured{kNone, kNone};
+    plant.inclination_mean_deg =
+        weight > 0 ? Measured{slant / weight, std::sqrt(slant_variance) / weight} : Measured{kNone, kNone};
     plant.leaf_count = {whole, std::sqrt(pieces) / 2};
     const Measured& area = plant.leaf_area_visible_mm2;
     const double share = area.value > 0 ? area.sd / area.value : 0;

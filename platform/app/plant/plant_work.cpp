@@ -35,7 +35,9 @@ std::size_t block_bytes(const PlantView& view)
 Result<PlantWork> PlantWork::make(const PointCloud& cloud, const char* name, std::span<const PlantPlace> places,
                                   double far_mm)
 {
-    const auto named = [&](const Status& why) { return failure(why.fault(), "%s: %s", shown_path(name), why.message()); };
+    const auto named = [&](const Status& why) {
+        return failure(why.fault(), "%s: %s", shown_path(name), why.message());
+    };
     PlantWork work;
     std::int64_t since_us = monotonic_us();
     work.grid_ = TRY(MemoryBlock::map(kGridBytes));

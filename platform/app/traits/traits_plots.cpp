@@ -39,6 +39,10 @@ Scale time_scale(const DayCount& days, double from, double to)
             step = one;
             break;
         }
+    if (step >= 1) { // whole days
+        from = std::floor(from);
+        to = std::ceil(to);
+    }
     Scale scale{from, to, step, "", {}};
     for (double mark = std::ceil(from / step) * step; mark <= to; mark += step) {
         // Whole days of this count are local midnights but for summer time, which half an hour more rounds away.
