@@ -133,9 +133,10 @@ void add_traits(CLI::App& program, Command& chosen)
     command->add_option("--since", words->since, "from this day or time on, UTC")->type_name("TIME");
     command->add_option("--until", words->until, "to the end of this day or time, UTC")->type_name("TIME");
     command
-        ->add_option("--csv", words->csv,
-                     "a table, a line a plant and snapshot, and NAME.leaves.csv beside NAME.csv; without FILE the "
-                     "first alone, to standard output")
+        ->add_option(
+            "--csv", words->csv,
+            "a line a plant and snapshot, and a line a leaf in FILE's name with .leaves.csv; no FILE: the first "
+            "to standard output")
         ->type_name("FILE")
         ->expected(0, 1)
         ->default_str(kStandardOutput);
