@@ -270,6 +270,24 @@ TEST_F(Traits, PlotsArePicturesWithTheReasonsOfTheirGaps)
     EXPECT_GE(files, 8);
 }
 
+TEST_F(Traits, PlantsBearTheNamesOfTheirPlaces)
+{
+    std::ofstream(folder_.path("places.csv")) << "name,min_x_mm,min_y_mm,min_z_mm,max_x_mm,max_y_mm,max_z_mm\n"
+                                                 "empty pot,-9000,-9000,0,-8000,-8000,500\nbasil,,,,,,\n";
+    EXPECT_EQ(report()["boards"][0]["from_cache"], 0);
+    const std::string with = "--plants " + folder_.path("places.csv");
+    const json board = report(with)["boards"].at(0);
+    EXPECT_EQ(board["from_cache"], 0) << "figures of other places are other figures";
+    EXPECT_EQ(report(with)["boards"][0]["from_cache"], 6);
+    EXPECT_EQ(report()["boards"][0]["from_cache"], 6) << "and they do not push each other out";
+    ASSERT_EQ(board["plants"].size(), 2U);
+    EXPECT_EQ(board["plants"][0]["name"], "empty pot");
+    EXPECT_EQ(board["plants"][0]["snapshots"], 0);
+    EXPECT_EQ(board["plants"][1]["name"], "basil");
+    EXPECT_EQ(board["plants"][1]["snapshots"], 6);
+    EXPECT_EQ(traits("--plants " + folder_.path("nowhere.csv")).exit_code, 66);
+}
+
 TEST_F(Traits, WordsThatAreWrongAreRefused)
 {
     EXPECT_EQ(traits("--since yesterday").exit_code, 64);
