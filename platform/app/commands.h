@@ -35,5 +35,6 @@ void add_show(CLI::App& program, Command& chosen);
 void add_snap(CLI::App& program, Command& chosen);
 void add_traits(CLI::App& program, Command& chosen);
 void add_verify(CLI::App& program, Command& chosen);
+void add_view(CLI::App& program, Command& chosen);
 
 } // namespace dicot::app
