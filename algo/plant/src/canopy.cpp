@@ -47,7 +47,7 @@ bool hang_together(const CloudPoint& a, const CloudPoint& b, double focal_px)
 /// beyond the working range that is taken for something near has a mean confidence of 40 of 255, a leaf of 150.
 void find_green(const PlantView& view, const GroundFrame& ground, std::span<std::uint8_t> green, Arena& arena)
 {
-    constexpr int kSpeck = 60, kGuessed = 64;
+    constexpr int kSpeck = 60, kGuessed = 56;
     const std::size_t mark = arena.used();
     const std::span<const CloudPoint> points = view.cloud.points;
     const std::span<std::int32_t> parent = arena.take<std::int32_t>(points.size());

@@ -2,6 +2,7 @@
 
 #include "basins.h"
 #include "dicot/plant/canopy.h"
+#include "merge.h"
 #include "surface.h"
 
 #include <algorithm>
@@ -33,7 +34,8 @@ Result<Leaves> segment_leaves(const PlantView& view, std::span<const PlantBox> b
 
     const std::size_t mark = arena.used();
     const Surface surface = surface_of(view, canopy, arena);
-    const Pieces pieces = cut_at_necks(surface, arena);
+    Pieces pieces = cut_at_necks(surface, arena);
+    merge_pieces(surface, pieces, arena);
     const std::span<std::int32_t> size = arena.take<std::int32_t>(static_cast<std::size_t>(pieces.count) + 1);
     if (arena.overrun())
         return failure(Fault::kConfig, "too little memory to look for leaves");
