@@ -6,6 +6,9 @@ dicot_packages() {
     case $1 in
         build) echo "g++ cmake ninja-build pkg-config libpng-dev zlib1g-dev libjpeg62-turbo-dev libyaml-dev libmd-dev libcli11-dev
             nlohmann-json3-dev libeigen3-dev libdraco-dev libusb-1.0-0-dev libtomlplusplus-dev libsqlite3-dev" ;;
+        # Node may be there from elsewhere, and Debian's npm does not stand beside that.
+        viewer) echo "libcpp-httplib-dev" && { command -v npm >/dev/null 2>&1 || echo "npm"; } ;;
+        browser) echo "chromium" ;;
         quickstart) echo "libjpeg-turbo-progs" ;; # djpeg scales the pair
         # tzdata: every zone of it is read; draco, pcl-tools: readers of others for our files; OpenCV: a yardstick beside ours;
         # the second line's make and read packages

@@ -208,7 +208,7 @@ finished() { # machine
     return "$(cat "$logs/vm-$1.code")"
 }
 
-purposes="build quickstart test"
+purposes="build viewer quickstart test browser"
 for name in $stages; do
     case $name in
         lint) purposes="$purposes clang lint" ;;

@@ -6,6 +6,7 @@
 #include "dicot/os/memory_block.h"
 
 #include <cstddef>
+#include <span>
 
 namespace dicot::app {
 
@@ -15,6 +16,8 @@ class CloudOnDisk
 public:
     /// Errors: kNoInput when it is missing, kBadData when it is no cloud or damaged, kOsError without memory.
     static Result<CloudOnDisk> read(const char* path);
+    /// The same of a file's bytes, which need not outlive the call; `name` is the file's, for sentences.
+    static Result<CloudOnDisk> decode(std::span<const std::byte> file, const char* name);
 
     const PointCloud& cloud() const { return cloud_; }
     const CloudMeta& meta() const { return outline_.meta; }

@@ -32,6 +32,8 @@ void add_schedule(CLI::App& program, Command& chosen);
 void add_selftest(CLI::App& program, Command& chosen);
 void add_show(CLI::App& program, Command& chosen);
 void add_snap(CLI::App& program, Command& chosen);
+void add_traits(CLI::App& program, Command& chosen);
 void add_verify(CLI::App& program, Command& chosen);
+void add_view(CLI::App& program, Command& chosen);
 
 } // namespace dicot::app

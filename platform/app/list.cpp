@@ -24,22 +24,9 @@ struct ListWords
     bool json = false;
 };
 
-Result<TimeSpan> time_of(const char* word, const std::string& text)
-{
-    const std::optional<TimeSpan> span = parse_time(text);
-    if (!span)
-        return failure(Fault::kUsage, "%s is %s: give a day or a time in UTC, as 2026-06-01 or 2026-06-01T12:30", word,
-                       shown(text).c_str());
-    return *span;
-}
-
 Result<SlotQuery> query_of(const ListWords& words)
 {
-    SlotQuery query;
-    if (!words.since.empty())
-        query.since_us = TRY(time_of("--since", words.since)).first_us;
-    if (!words.until.empty())
-        query.until_us = TRY(time_of("--until", words.until)).last_us;
+    SlotQuery query = TRY(query_between(words.since, words.until));
     query.missed_only = words.missed;
     query.last = words.last;
     return query;

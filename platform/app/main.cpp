@@ -63,6 +63,8 @@ int main(int argc, char** argv)
     app::add_prune(program, chosen);
     app::add_pull(program, chosen);
     app::add_archive(program, chosen);
+    app::add_view(program, chosen);
+    app::add_traits(program, chosen);
 
     try {
         program.parse(argc, argv);

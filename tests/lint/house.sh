@@ -83,6 +83,7 @@ door 'j(peglib|error)\.h' platform/picture
 door 'CLI/' platform/app
 door 'nlohmann/' '(platform/app|storage/record)'
 door 'toml\+\+/' platform/app/config
+door 'httplib\.h' platform/app/view
 door 'linux/videodev2\.h' drivers/camera/v4l2
 door 'libusb' '(drivers/camera/uvc|drivers/usb)'
 door 'opencv2/' tests

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -20,6 +21,13 @@ TEST(ExactMath, ExpAgreesWithTheLibraryTo14Digits)
 {
     for (double x = -40.0; x <= 40.0; x += 0.037)
         EXPECT_NEAR(exact_exp(x) / std::exp(x), 1.0, 1e-14) << x;
+}
+
+TEST(ExactMath, LogAgreesWithTheLibraryTo14Digits)
+{
+    for (double x = 1e-300; x < 1e300; x *= 1.37)
+        EXPECT_NEAR(exact_log(x), std::log(x), 1e-14 * std::max(1.0, std::abs(std::log(x)))) << x;
+    EXPECT_EQ(exact_log(1.0), 0.0);
 }
 
 TEST(ExactMath, RootsAgreeWithTheLibraryTo14Digits)

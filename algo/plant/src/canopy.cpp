@@ -43,8 +43,9 @@ bool hang_together(const CloudPoint& a, const CloudPoint& b, double focal_px)
     return std::fabs(double(a.z) - b.z) * focal_px < kSteep * std::min(a.z, b.z);
 }
 
-/// Marks with 1 what is green and above the ground, in patches that are no specks, and that were not guessed: background
-/// beyond the working range that is taken for something near has a mean confidence of 40 of 255, a leaf of 150.
+/// Marks with 1 what is green and above the ground, in patches that are no specks, and that were not guessed:
+/// background beyond the working range that is taken for something near has a mean confidence of 40 of 255, a leaf of
+/// 150.
 void find_green(const PlantView& view, const GroundFrame& ground, std::span<std::uint8_t> green, Arena& arena)
 {
     constexpr int kSpeck = 60, kGuessed = 56;

@@ -13,10 +13,10 @@ namespace {
 /// alike in 1 / z everywhere: what is linear here is fitted here.
 using InversePlane = Vec3;
 
-constexpr int kSamples = 3000;    ///< of the points, evenly
-constexpr int kTries = 500;       ///< with half of the points on the plane one in eight hits it
-constexpr double kDown = 0.4226;  ///< cos 65 degrees
-constexpr double kNearPx = 6;     ///< how far a point of the plane may be off: as much depth as 6 px are wide
+constexpr int kSamples = 3000;   ///< of the points, evenly
+constexpr int kTries = 500;      ///< with half of the points on the plane one in eight hits it
+constexpr double kDown = 0.4226; ///< cos 65 degrees
+constexpr double kNearPx = 6;    ///< how far a point of the plane may be off: as much depth as 6 px are wide
 constexpr double kLeastShare = 0.1;
 
 /// Depth by which p lies off the plane, in widths of a pixel there; positive where it lies beyond.
@@ -36,8 +36,8 @@ Vec3 solved(const Vec3 (&rows)[3], const Vec3& right)
     const double all = determinant(rows[0], rows[1], rows[2]);
     if (!(std::fabs(all) > 0))
         return {};
-    return (1 / all) * (right.x * cross(rows[1], rows[2]) + right.y * cross(rows[2], rows[0]) +
-                        right.z * cross(rows[0], rows[1]));
+    return (1 / all) *
+           (right.x * cross(rows[1], rows[2]) + right.y * cross(rows[2], rows[0]) + right.z * cross(rows[0], rows[1]));
 }
 
 bool lies_below(const InversePlane& plane)

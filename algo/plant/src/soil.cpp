@@ -59,7 +59,8 @@ double flat_height(const PlantView& view, const GroundFrame& ground, int x, int 
         return i == PlantView::kNoPoint ? Vec3{NAN, NAN, NAN}
                                         : in_ground(ground, point_mm(view, static_cast<std::size_t>(i)));
     };
-    const Vec3 here = at(x, y), across = at(x + kApart, y) - at(x - kApart, y), along = at(x, y + kApart) - at(x, y - kApart);
+    const Vec3 here = at(x, y), across = at(x + kApart, y) - at(x - kApart, y),
+               along = at(x, y + kApart) - at(x, y - kApart);
     const Vec3 normal = cross(across, along);
     constexpr double kFlat = 0.9;
     return std::fabs(normal.z) > kFlat * length(normal) ? here.z : NAN;

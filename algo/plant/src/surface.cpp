@@ -62,7 +62,8 @@ void for_each_inner(const Surface& surface, const Do& act)
 {
     for (int y = 1; y + 1 < surface.height; ++y)
         for (int x = 1; x + 1 < surface.width; ++x)
-            act(x, y, static_cast<std::size_t>(y) * static_cast<std::size_t>(surface.width) + static_cast<std::size_t>(x));
+            act(x, y,
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(surface.width) + static_cast<std::size_t>(x));
 }
 
 /// Medians of 3 x 3 take single wrong depths away and keep jumps.

@@ -30,8 +30,8 @@ struct Surface
     int width = 0, height = 0;
     double focal_px = 0;
     std::span<std::uint8_t> cell;
-    std::span<float> inverse;          ///< focal length by depth, 1 / mm: linear in the picture where the surface is flat
-    std::span<std::uint8_t> torn;      ///< of kPoint and kBridge
+    std::span<float> inverse;     ///< focal length by depth, 1 / mm: linear in the picture where the surface is flat
+    std::span<std::uint8_t> torn; ///< of kPoint and kBridge
     std::span<std::int16_t> inside_px5; ///< distance to the next tear, in fifths of a px
 
     std::size_t cells() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }

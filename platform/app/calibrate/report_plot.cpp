@@ -44,7 +44,11 @@ Plot::Plot(double width, double height, Scale x, Scale y, const std::string& lab
         inner_ += words(kLeft - 8, y_of(value) + 4, "label end",
                         scale_mark(value, y_.step) + (k == marks(y_) ? " " + y_.unit : ""));
     }
-    for (int k = 0; k <= marks(x_); ++k) {
+    for (const auto& [value, text] : x_.named) {
+        inner_ += line(x_of(value), foot, x_of(value), foot + 5, "axis");
+        inner_ += words(x_of(value), foot + 20, "label middle", escaped(text));
+    }
+    for (int k = 0; x_.named.empty() && k <= marks(x_); ++k) {
         const double value = x_.from + k * x_.step;
         inner_ += line(x_of(value), foot, x_of(value), foot + 5, "axis");
         inner_ += words(x_of(value), foot + 20, k == marks(x_) ? "label end" : "label middle",
@@ -89,6 +93,17 @@ void Plot::dots(std::span<const PlotPoint> points, const char* kind)
     for (const auto& [x, y] : points)
         drawn.add(x_of(x), y_of(y));
     inner_ += drawn.drawn(kind);
+}
+
+void Plot::rings(std::span<const PlotPoint> points, const char* kind)
+{
+    for (const auto& [x, y] : points)
+        inner_ += fill(R"(<circle class="{}" cx="{}" cy="{}" r="4"/>)", {kind, at(x_of(x)), at(y_of(y))});
+}
+
+void Plot::stripe(double from_x, double to_x, const char* kind, const std::string& title)
+{
+    inner_ += box(x_of(from_x), kTop, x_of(to_x) - x_of(from_x), height_ - kFoot - kTop, kind, escaped(title));
 }
 
 void Plot::reach(double x, double low, double high, const char* kind)

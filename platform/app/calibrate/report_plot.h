@@ -15,6 +15,7 @@ struct Scale
     double to = 1;
     double step = 1; ///< between marks
     std::string unit;
+    std::vector<std::pair<double, std::string>> named{}; ///< marks with words of their own, instead of the steps
 
     /// Holds both values, with about `marks` steps of 1, 2 or 5 times a power of ten. `from` < `to`.
     static Scale around(double from, double to, int marks, std::string unit);
@@ -35,6 +36,10 @@ public:
     /// The area between two curves over the same places.
     void band(std::span<const PlotPoint> lower, std::span<const PlotPoint> upper, const char* kind);
     void dots(std::span<const PlotPoint> points, const char* kind);
+    /// Hollow dots.
+    void rings(std::span<const PlotPoint> points, const char* kind);
+    /// From x to x over the whole height, with words for who points at it.
+    void stripe(double from_x, double to_x, const char* kind, const std::string& title);
     /// An upright stroke.
     void reach(double x, double low, double high, const char* kind);
     /// Words just above a place of the scales; `kind` "label", "label end" or "label middle".

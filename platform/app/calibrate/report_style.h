@@ -77,6 +77,10 @@ svg.shared { position: absolute; width: 0; height: 0; }
 .trace { fill: none; stroke: var(--eye, var(--leaf)); stroke-width: 2; stroke-linejoin: round; }
 .dots.trace { stroke-width: 8; stroke-opacity: 1; stroke-linecap: round; }
 .reach { fill: none; stroke: var(--eye, var(--leaf)); stroke-width: 1.5; }
+.gap { fill: var(--quiet); fill-opacity: 0.13; }
+.hollow { fill: var(--paper); stroke: var(--hatch); stroke-width: 1.8; }
+.life { fill: none; stroke: var(--leaf); stroke-width: 1.2; stroke-opacity: 0.6; stroke-linejoin: round; }
+.dots.sample { stroke-width: 5; stroke-opacity: 0.6; } .spread { stroke: var(--ink); stroke-opacity: 0.25; }
 .bar { fill: var(--leaf); } .bar.left { fill: var(--left); } .bar.right { fill: var(--right); }
 .bar.dropped { fill: none; stroke: var(--eye); stroke-width: 1.5; stroke-dasharray: 3 2; }
 .label { fill: var(--quiet); } .middle { text-anchor: middle; } .end { text-anchor: end; }

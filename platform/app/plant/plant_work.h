@@ -1,4 +1,4 @@
-// A cloud's plants, leaves and traits, in one block of memory.
+// A cloud's plants, leaves and traits.
 #pragma once
 
 #include "dicot/os/memory_block.h"
@@ -26,14 +26,17 @@ struct PlantTimes
     double view_s = 0, leaves_s = 0, traits_s = 0;
 };
 
-/// Everything about one cloud; the spans point into the block that it owns. The cloud is borrowed.
+/// Everything about one cloud. The cloud is borrowed. Memory is two blocks: one for the grid, which then tells how
+/// large the other must be; pages that are not written take no room.
 class PlantWork
 {
 public:
     /// With `places`, plant i + 1 is what stands in places[i], and what stands in none is no plant; without, plants
     /// are told apart by the gaps between them. `name` is the cloud's, for sentences. Errors: plant_view()'s;
-    /// Fault::kOsError without memory. A cloud without anything green is none: it has no plants.
-    static Result<PlantWork> make(const PointCloud& cloud, const char* name, std::span<const PlantPlace> places = {});
+    /// Fault::kOsError without memory. A cloud without anything green is no error: it has no plants. `far_mm`: how far
+    /// the cloud's working range reaches; 0 where that is not known.
+    static Result<PlantWork> make(const PointCloud& cloud, const char* name, std::span<const PlantPlace> places = {},
+                                  double far_mm = 0);
 
     const PlantView& view() const { return view_; }
     const Leaves& leaves() const { return leaves_; }
@@ -41,10 +44,13 @@ public:
     const PlantTimes& times() const { return times_; }
     /// "plant 1", or the name of its place; `plant` is 1 .. plant_count.
     std::string plant_name(int plant) const;
-    std::size_t memory_bytes() const { return block_.bytes().size(); }
+    /// What was taken at most at one time.
+    std::size_t memory_bytes() const { return memory_bytes_; }
 
 private:
+    MemoryBlock grid_;
     MemoryBlock block_;
+    std::size_t memory_bytes_ = 0;
     PlantView view_;
     Leaves leaves_;
     Traits traits_;

@@ -107,4 +107,20 @@ std::optional<TimeSpan> parse_time(std::string_view text)
     return TimeSpan{*first_us, *first_us + seconds * 1'000'000 - 1};
 }
 
+Result<SlotQuery> query_between(const std::string& since, const std::string& until)
+{
+    const auto time_of = [](const char* word, const std::string& text) -> Result<TimeSpan> {
+        if (const std::optional<TimeSpan> span = parse_time(text))
+            return *span;
+        return failure(Fault::kUsage, "%s is %s: give a day or a time in UTC, as 2026-06-01 or 2026-06-01T12:30", word,
+                       shown(text).c_str());
+    };
+    SlotQuery query;
+    if (!since.empty())
+        query.since_us = TRY(time_of("--since", since)).first_us;
+    if (!until.empty())
+        query.until_us = TRY(time_of("--until", until)).last_us;
+    return query;
+}
+
 } // namespace dicot::app

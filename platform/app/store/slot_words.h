@@ -33,4 +33,7 @@ struct TimeSpan
 /// 2026-06-01, 2026-06-01T12:30 or 2026-06-01T12:30:15, with or without a Z; always UTC.
 std::optional<TimeSpan> parse_time(std::string_view text);
 
+/// The slots between what --since and --until say; empty: no bound. Fault::kUsage: one of them is no time.
+Result<SlotQuery> query_between(const std::string& since, const std::string& until);
+
 } // namespace dicot::app

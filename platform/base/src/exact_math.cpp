@@ -1,5 +1,7 @@
 #include "dicot/base/exact_math.h"
 
+#include <cmath>
+
 namespace dicot {
 
 double exact_exp(double x) noexcept
@@ -18,6 +20,24 @@ double exact_exp(double x) noexcept
     for (int i = 0; i > k; --i)
         value *= 0.5;
     return value;
+}
+
+double exact_log(double x) noexcept
+{
+    // x = 2^k m with m around 1; ln m = 2 artanh u, u = (m - 1) / (m + 1), |u| < 0.172.
+    constexpr double kLn2 = 0x1.62e42fefa39efp-1;
+    constexpr double kRootOfHalf = 0x1.6a09e667f3bcdp-1;
+    int k = 0;
+    double m = std::frexp(x, &k);
+    if (m < kRootOfHalf) {
+        m *= 2.0;
+        --k;
+    }
+    const double u = (m - 1.0) / (m + 1.0);
+    double sum = 0.0;
+    for (int i = 23; i >= 1; i -= 2)
+        sum = sum * (u * u) + 1.0 / i;
+    return k * kLn2 + 2.0 * u * sum;
 }
 
 double exact_root(double x, int n) noexcept

@@ -24,7 +24,8 @@ struct GroundFrame
     double up[3] = {0, -1, 0};
     double rms_mm = 0;       ///< of the points that the plane was fitted to
     double height_sd_mm = 0; ///< one standard deviation of z = 0 where the plants stand
-    double bench_mm = 0;     ///< z of the bench: 0 for kBench, below 0 for kSoil; what does not move as leaves hide the soil
+    double bench_mm =
+        0; ///< z of the bench: 0 for kBench, below 0 for kSoil; what does not move as leaves hide the soil
 };
 
 } // namespace dicot

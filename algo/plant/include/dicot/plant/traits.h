@@ -2,8 +2,11 @@
 #pragma once
 
 #include "dicot/base/arena.h"
+#include "dicot/base/status.h"
 #include "dicot/plant/leaves.h"
+#include "dicot/plant/plant_view.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -26,7 +29,7 @@ struct LeafTraits
     Measured area_mm2;        ///< of what is visible, on the surface
     Measured inclination_deg; ///< of the blade's normal from the vertical: 0 lies flat
     Measured azimuth_deg;     ///< in which direction it points, base to tip, about up from `right`, 0 .. 360
-    Measured curvature_per_m; ///< along the midrib: 1 / radius
+    Measured curvature_per_m; ///< along the midrib: 1 / radius; positive: base and tip hang below the middle
     double greenness = 0;     ///< mean of (2 g - r - b) / (r + g + b)
     double centre_mm[3] = {}; ///< camera frame
     double base_mm[3] = {};
@@ -37,8 +40,12 @@ struct LeafTraits
 
 struct PlantTraits
 {
+    /// Fewer are taken for stray ones.
+    static constexpr std::int64_t kHighest = 20;
+
     int plant = 0;
     std::int64_t points = 0;
+    Measured height_max_mm;         ///< above the ground, that which kHighest points reach
     Measured height_p99_mm;         ///< above the ground, 99th percentile
     Measured height_top10_mean_mm;  ///< mean of the highest tenth
     Measured leaf_area_visible_mm2; ///< on the surface
@@ -55,5 +62,12 @@ struct Traits
     std::span<LeafTraits> leaves;
     std::span<PlantTraits> plants;
 };
+
+/// Measures every leaf and plant. `far_mm`: how far the cloud's working range reaches, 0 where that is not known.
+/// Fault::kConfig: `arena` is smaller than traits_bytes(). What is measured how, and each sd: README.md.
+Result<Traits> measure_traits(const PlantView& view, const Leaves& leaves, Arena& arena, double far_mm = 0);
+
+/// What measure_traits() takes at most: the traits, which stay, and twice in passing what is larger.
+std::size_t traits_bytes(std::size_t points, int leaf_count, int plant_count);
 
 } // namespace dicot

@@ -8,6 +8,8 @@ namespace dicot {
 
 /// e^x for |x| <= 700.
 double exact_exp(double x) noexcept;
+/// The natural logarithm of a normal x > 0; absolute error below 1e-14 near 1.
+double exact_log(double x) noexcept;
 /// The n-th root of x >= 0, n in 2..5.
 double exact_root(double x, int n) noexcept;
 

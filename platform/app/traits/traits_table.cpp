@@ -1,0 +1,78 @@
+#include "traits_table.h"
+
+#include "../store/shown.h"
+
+#include "dicot/base/utc_time.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace dicot::app {
+namespace {
+
+constexpr std::size_t kMostGaps = 12; ///< in words
+
+std::string series_line(const TraitSeries& series)
+{
+    const auto newest = std::find_if(series.fit.curve.rbegin(), series.fit.curve.rend(),
+                                     [](const GrowthPoint& point) { return std::isfinite(point.value.value); });
+    if (newest == series.fit.curve.rend())
+        return "";
+    char line[200];
+    std::snprintf(line, sizeof line, "  %-22s %11.5g +- %-8.3g", series.column->name, newest->value.value,
+                  newest->value.sd);
+    std::string text = line;
+    if (std::isfinite(newest->rate_per_day.value)) {
+        std::snprintf(line, sizeof line, " %+10.4g +- %-7.2g a day", newest->rate_per_day.value,
+                      newest->rate_per_day.sd);
+        text += line;
+    }
+    if (std::isfinite(newest->relative_rate_per_day.value)) {
+        std::snprintf(line, sizeof line, " (%+.1f %%)", 100 * newest->relative_rate_per_day.value);
+        text += line;
+    }
+    if (series.fit.outliers > 0)
+        text += "; " + counted(series.fit.outliers, "outlier");
+    if (series.fit.daily_known)
+        text += "; time of day apart";
+    return text + "\n";
+}
+
+std::string plant_words(const BoardTraits& board, const PlantGrowth& plant)
+{
+    const SlotRow& first = board.slots[plant.life.seen.front().slot].row;
+    const SlotRow& last = board.slots[plant.life.seen.back().slot].row;
+    std::string text = shown(plant.life.name) + ": " + counted(std::ssize(plant.life.seen), "snapshot") + ", " +
+                       utc_text(first.began_us).c_str() + " to " + utc_text(last.began_us).c_str() + "\n";
+    for (const TraitSeries& series : plant.series)
+        text += series_line(series);
+    const auto now = std::ranges::count_if(
+        plant.life.leaves, [&](const LeafLife& leaf) { return leaf.seen.back().slot == plant.life.seen.back().slot; });
+    return text + "  " + std::to_string(plant.life.leaves.size()) + " leaves were seen, " + std::to_string(now) +
+           " of them in the last snapshot\n";
+}
+
+} // namespace
+
+std::string growth_words(const BoardTraits& board, const BoardGrowth& growth)
+{
+    const auto measured =
+        std::ranges::count_if(board.slots, [](const SlotTraits& slot) { return slot.traits.has_value(); });
+    std::string text = shown(board.device) + ": " + counted(std::ssize(board.slots), "slot") + ", " +
+                       std::to_string(measured) + " measured (" + std::to_string(board.from_cache) +
+                       " before), time of day in " + board.zone.name() + "\n";
+    for (std::size_t k = 0; k < std::min(growth.gaps.size(), kMostGaps); ++k) {
+        const SeriesGap& gap = growth.gaps[k];
+        text += std::string{"  gap between "} + utc_text(gap.from_us).c_str() + " and " + utc_text(gap.to_us).c_str() +
+                ": " + counted(gap.slots, "slot") + ", " + shown(gap.reason) + "\n";
+    }
+    if (growth.gaps.size() > kMostGaps)
+        text += "  " + std::to_string(growth.gaps.size() - kMostGaps) + " gaps more: --csv has all\n";
+    for (const PlantGrowth& plant : growth.plants)
+        if (!plant.life.seen.empty())
+            text += plant_words(board, plant);
+    return text;
+}
+
+} // namespace dicot::app
