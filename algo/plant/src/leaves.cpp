@@ -43,6 +43,7 @@ Result<Leaves> segment_leaves(const PlantView& view, std::span<const PlantBox> b
     for (std::size_t i = 0; i < surface.cells(); ++i)
         if (surface.cell[i] == Surface::kPoint)
             ++size[static_cast<std::size_t>(pieces.piece[i])];
+    size[0] = 0;
     for (std::int32_t& s : size)
         s = s >= 120 ? ++leaves.leaf_count : 0;
     for (std::size_t i = 0; i < surface.cells(); ++i)
