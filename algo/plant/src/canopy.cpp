@@ -90,8 +90,8 @@ void find_green(const PlantView& view, const GroundFrame& ground, std::span<std:
     arena.rewind(mark);
 }
 
-/// Highlights and spots are not green: a point that hangs together with five green ones of its eight neighbours is taken
-/// in. Straight borders do not grow by it.
+/// Highlights and spots are not green: a point that hangs together with five green ones of its eight neighbours is
+/// taken in. Straight borders do not grow by it.
 void close_spots(const PlantView& view, std::span<std::uint8_t> green)
 {
     constexpr int kRounds = 6, kEnough = 6;

@@ -46,10 +46,7 @@ public:
     Merger(std::span<Piece> pieces, std::span<Border> borders) : pieces_(pieces), borders_(borders) {}
 
     Piece& piece(std::size_t i) { return pieces_[i]; }
-    Border& border(std::size_t i, std::size_t j)
-    {
-        return borders_[std::max(i, j) * pieces_.size() + std::min(i, j)];
-    }
+    Border& border(std::size_t i, std::size_t j) { return borders_[std::max(i, j) * pieces_.size() + std::min(i, j)]; }
 
     void weigh(std::size_t i, std::size_t j)
     {
@@ -65,10 +62,12 @@ public:
             return;
         }
         constexpr double kSlackPx = 0.6, kLeastNeck = 0.05;
-        const double neck = (double(between.widest) / Surface::kUnit + kSlackPx) / std::min(a.half_width_px, b.half_width_px);
+        const double neck =
+            (double(between.widest) / Surface::kUnit + kSlackPx) / std::min(a.half_width_px, b.half_width_px);
         const double near = between.near / std::min(a.shape.count(), b.shape.count());
-        between.odds = static_cast<float>(std::max(neck, kLeastNeck) * near * std::sqrt(own_roughness(a.shape, b.shape) + 0.5) /
-                                          ((off + 0.5) * (off + 0.5)));
+        between.odds =
+            static_cast<float>(std::max(neck, kLeastNeck) * near * std::sqrt(own_roughness(a.shape, b.shape) + 0.5) /
+                               ((off + 0.5) * (off + 0.5)));
     }
 
     void weigh_all()
@@ -163,8 +162,8 @@ void find_borders(const Surface& surface, const Pieces& pieces, Merger& merger)
     constexpr int kWays[4][2] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}};
     for (int y = 0; y < surface.height; ++y)
         for (int x = 0; x < surface.width; ++x) {
-            const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(surface.width) +
-                                  static_cast<std::size_t>(x);
+            const std::size_t i =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(surface.width) + static_cast<std::size_t>(x);
             const std::int32_t here = pieces.piece[i];
             if (here == 0)
                 continue;
@@ -175,7 +174,7 @@ void find_borders(const Surface& surface, const Pieces& pieces, Merger& merger)
                         break;
                     const std::size_t j = i + static_cast<std::size_t>(k * (dy * surface.width + dx));
                     const std::int32_t there = pieces.piece[j];
-                    if (there == 0 || there == here)
+                    if (there == 0 || there == here || surface.plant[i] != surface.plant[j])
                         continue;
                     Border& between =
                         merger.border(static_cast<std::size_t>(here) - 1, static_cast<std::size_t>(there) - 1);
@@ -183,8 +182,8 @@ void find_borders(const Surface& surface, const Pieces& pieces, Merger& merger)
                     const bool contact = k == 1 && (dx == 0 || dy == 0) &&
                                          (surface.torn[i] & (dx == 1 ? Surface::kRight : Surface::kBelow)) == 0;
                     if (contact)
-                        between.widest = std::max<std::int32_t>(
-                            between.widest, std::min(surface.inside_px5[i], surface.inside_px5[j]));
+                        between.widest = std::max<std::int32_t>(between.widest,
+                                                                std::min(surface.inside_px5[i], surface.inside_px5[j]));
                 }
         }
 }

@@ -6,8 +6,8 @@
 
 namespace dicot {
 
-/// Sums of a patch's points, from which the least squares of 1, x, y, x x, x y, y y follow; those of two patches together
-/// are their sum.
+/// Sums of a patch's points, from which the least squares of 1, x, y, x x, x y, y y follow; those of two patches
+/// together are their sum.
 class QuadricSums
 {
 public:
@@ -26,7 +26,8 @@ private:
     double squares_ = 0;
 };
 
-/// How far the smaller of two patches lies off one surface for both, beyond what each lies off its own: root mean square.
+/// How far the smaller of two patches lies off one surface for both, beyond what each lies off its own: root mean
+/// square.
 double misfit(const QuadricSums& a, const QuadricSums& b);
 
 /// How far both lie off their own surfaces: root mean square.

@@ -53,6 +53,7 @@ void fill_cells(const Surface& surface, const PlantView& view, const Canopy& can
             continue;
         const auto point = static_cast<std::size_t>(index);
         surface.cell[i] = canopy.plant[point] == 0 ? Surface::kOther : Surface::kPoint;
+        surface.plant[i] = canopy.plant[point];
         surface.inverse[i] = static_cast<float>(view.focal_px / point_mm(view, point).z);
     }
 }
@@ -116,13 +117,16 @@ void bridge(const Surface& surface, std::span<float> inverse, std::span<std::uin
             if (back == 0 || forth == 0 || back + forth >= shortest)
                 continue;
             const int stride = dy * surface.width + dx;
-            const float a = surface.inverse[i - static_cast<std::size_t>(back * stride)];
-            const float b = surface.inverse[i + static_cast<std::size_t>(forth * stride)];
-            if (step_px(surface, a, b) > kJumpPx / 2 + static_cast<float>(back + forth))
+            const std::size_t from = i - static_cast<std::size_t>(back * stride);
+            const std::size_t to = i + static_cast<std::size_t>(forth * stride);
+            const float a = surface.inverse[from], b = surface.inverse[to];
+            if (surface.plant[from] != surface.plant[to] ||
+                step_px(surface, a, b) > kJumpPx / 2 + static_cast<float>(back + forth))
                 continue;
             shortest = back + forth;
             inverse[i] = (a * static_cast<float>(forth) + b * static_cast<float>(back)) / static_cast<float>(shortest);
             cell[i] = Surface::kBridge;
+            surface.plant[i] = surface.plant[from];
         }
     });
     std::ranges::copy(inverse, surface.inverse.begin());
@@ -133,7 +137,7 @@ void bridge(const Surface& surface, std::span<float> inverse, std::span<std::uin
 bool is_torn(const Surface& surface, std::size_t i, std::size_t stride)
 {
     const std::size_t j = i + stride;
-    if (!surface.holds(j))
+    if (!surface.holds(j) || surface.plant[i] != surface.plant[j])
         return true;
     if (surface.cell[i] == Surface::kBridge || surface.cell[j] == Surface::kBridge)
         return false;
@@ -274,6 +278,7 @@ Surface surface_of(const PlantView& view, const Canopy& canopy, Arena& arena)
     surface.focal_px = view.focal_px;
     frame_cells(surface, view, canopy);
     surface.cell = arena.take<std::uint8_t>(surface.cells());
+    surface.plant = arena.take<std::uint8_t>(surface.cells());
     surface.inverse = arena.take<float>(surface.cells());
     surface.torn = arena.take<std::uint8_t>(surface.cells());
     surface.inside_px5 = arena.take<std::int16_t>(surface.cells());
