@@ -387,7 +387,10 @@ LeafShape leaf_shape(std::span<SurfaceCell> cells, double focal_px, std::span<Pl
         const auto rest = std::partition(
             cells.begin(), cells.end(), [&](const SurfaceCell& cell) { return blade.holds(frame.place(where(cell))); });
         const auto count = static_cast<std::size_t>(rest - cells.begin());
-        if (count == cells.size() || count < kFewestCells)
+        // A petiole is a small part of what is seen of a leaf; a large one is another leaf.
+        constexpr double kPetioleShare = 0.35;
+        if (count == cells.size() || count < kFewestCells ||
+            static_cast<double>(count) < (1 - kPetioleShare) * static_cast<double>(cells.size()))
             break;
         cells = cells.first(count);
         places = places.first(count);

@@ -167,7 +167,7 @@ void measure_plant(const PlantView& view, const Leaves& leaves, const LeafSurfac
     });
     for (int leaf = 1; leaf <= leaves.leaf_count; ++leaf)
         if (leaves.plant_of_leaf[static_cast<std::size_t>(leaf - 1)] == plant.plant)
-            for (const SurfaceCell& cell : surfaces.of(leaf))
+            for (const SurfaceCell& cell : surfaces.blade_of(leaf))
                 cell_at(ground.place({cell.x, cell.y, cell.z})).covered_mm2 += cell.from_above_mm2;
 
     double projected = 0;
