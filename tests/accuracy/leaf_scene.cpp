@@ -180,6 +180,8 @@ GroundFrame true_ground(const nlohmann::json& about, const Turn& rectifying)
 void read_leaves(const std::string& folder, const Surface& surface, const TrueDepth& depth, const Turn& rectifying,
                  LeafScene& scene)
 {
+    constexpr int kSeen = 255;
+    const std::vector<int> by_right = ids_of(folder + "/gt_visible_right.png");
     std::map<int, std::vector<std::pair<Point3, double>>> seen;
     for (int y = 0; y < depth.height; ++y)
         for (int x = 0; x < depth.width; ++x)
@@ -198,9 +200,12 @@ void read_leaves(const std::string& folder, const Surface& surface, const TrueDe
                       place("tip"),
                       0,
                       0,
+                      0,
                       0};
         const auto& cells = seen[leaf.id];
         leaf.pixels = static_cast<long>(cells.size());
+        for (std::size_t i = 0; i < by_right.size(); ++i)
+            leaf.by_both += scene.picture_leaf[i] == leaf.id && by_right[i] == kSeen;
         for (const auto& [point, area] : cells)
             leaf.visible_mm2 += area;
         if (leaf.pixels > 10)

@@ -21,6 +21,7 @@ struct TrueLeaf
     double length_mm = 0, width_mm = 0, area_mm2 = 0;
     Point3 base, tip;
     long pixels = 0;        ///< of the left picture as the camera gave it
+    long by_both = 0;       ///< of these, what the right camera sees as well
     double visible_mm2 = 0; ///< of its surface, in these pixels
     double slant_deg = 0;   ///< of the plane through them from the horizontal
 

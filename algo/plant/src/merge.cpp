@@ -61,13 +61,13 @@ public:
             between.odds = static_cast<float>(one ? kLeastOdds * (1 + 1e-3 / (off + 0.1)) : 0);
             return;
         }
-        constexpr double kSlackPx = 0.6, kLeastNeck = 0.05;
+        constexpr double kSlackPx = 0.6, kLeastNeck = 0.25; // narrower is a petiole, or two that touch
         const double neck =
             (double(between.widest) / Surface::kUnit + kSlackPx) / std::min(a.half_width_px, b.half_width_px);
         const double near = between.near / std::min(a.shape.count(), b.shape.count());
-        between.odds =
-            static_cast<float>(std::max(neck, kLeastNeck) * near * std::sqrt(own_roughness(a.shape, b.shape) + 0.5) /
-                               ((off + 0.5) * (off + 0.5)));
+        const double odds =
+            neck * near * std::sqrt(own_roughness(a.shape, b.shape) + 0.5) / ((off + 0.5) * (off + 0.5));
+        between.odds = static_cast<float>(neck < kLeastNeck ? 0 : odds);
     }
 
     void weigh_all()
