@@ -39,8 +39,9 @@ private:
 /// The cache's folder if none is named: dicot in XDG_CACHE_HOME, or in ~/.cache. Empty: there is no home.
 std::string usual_cache_folder();
 
-/// 64 hexadecimal digits. Of the program itself, so that no figure of an older one stands beside its own; of the places
-/// of plants. Fault::kNoInput, kIoError.
+/// Of this very program, so that no figure of an older one stands beside its own. 64 hexadecimal digits.
+/// Fault::kNoInput, kIoError.
+Result<std::string> digest_of_program();
 Result<std::string> digest_of_file(const std::string& path);
 
 } // namespace dicot::app
