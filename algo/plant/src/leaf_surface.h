@@ -34,7 +34,7 @@ struct LeafSurfaces
     std::span<std::int32_t> first; ///< [leaf_count + 1]
     std::span<LeafGaps> gaps;      ///< [leaf_count]
 
-    std::span<const SurfaceCell> of(int leaf) const
+    std::span<SurfaceCell> of(int leaf) const
     {
         const auto at = static_cast<std::size_t>(leaf);
         const auto from = static_cast<std::size_t>(first[at - 1]), to = static_cast<std::size_t>(first[at]);

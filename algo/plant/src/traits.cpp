@@ -1,5 +1,6 @@
 #include "dicot/plant/traits.h"
 
+#include "greenness.h"
 #include "leaf_borders.h"
 #include "leaf_shape.h"
 #include "plant_shape.h"
@@ -49,8 +50,7 @@ Appearance appearance(const PlantView& view, std::span<const SurfaceCell> cells)
     Appearance seen;
     for (const SurfaceCell& cell : cells) {
         const CloudPoint& point = view.cloud.points[static_cast<std::size_t>(cell.point)];
-        const int r = point.colour.r, g = point.colour.g, b = point.colour.b;
-        seen.greenness += r + g + b > 0 ? double(2 * g - r - b) / (r + g + b) : 0;
+        seen.greenness += greenness(point.colour);
         seen.unsure += 1 - point.confidence / 255.0;
     }
     const double count = std::max<double>(1, double(cells.size()));
@@ -72,7 +72,7 @@ struct Trunk
 void measure_leaf(const PlantView& view, const Leaves& leaves, const LeafSurfaces& surfaces, const LeafBorder& border,
                   const Trunk& trunk, std::span<Place> places, LeafTraits& leaf)
 {
-    const std::span<const SurfaceCell> cells = surfaces.of(leaf.leaf);
+    std::span<SurfaceCell> cells = surfaces.of(leaf.leaf);
     const LeafGaps& gaps = surfaces.gaps[static_cast<std::size_t>(leaf.leaf - 1)];
     leaf.points = static_cast<std::int64_t>(cells.size());
     leaf.hidden = border.behind > kHiddenShare * border.sides;
@@ -82,9 +82,10 @@ void measure_leaf(const PlantView& view, const Leaves& leaves, const LeafSurface
         *none = {kNone, kNone};
     if (cells.size() < kFewestCells)
         return;
+    LeafShape shape = leaf_shape(cells, view.focal_px, places.first(cells.size()));
+    cells = cells.first(shape.blade_cells);
     const Appearance seen = appearance(view, cells);
     leaf.greenness = seen.greenness;
-    LeafShape shape = leaf_shape(cells, view.focal_px, places.first(cells.size()));
     const Vec3 up = vec3(leaves.ground.up);
     if (dot(shape.frame.normal, up) < 0) { // the upper side's
         shape.frame.normal = -1.0 * shape.frame.normal;
