@@ -207,6 +207,9 @@ TEST_F(ViewServer, GrowthIsOfEverySlot)
     EXPECT_EQ(curves["slots"], 3);
     EXPECT_FALSE(curves.contains("error")) << curves["error"];
     EXPECT_EQ(curves["traits"][0]["key"], "leaf_area_visible_mm2");
+    ASSERT_EQ(curves["gaps"].size(), 1U) << curves["gaps"];
+    EXPECT_EQ(curves["gaps"][0]["slots"], 1);
+    EXPECT_THAT(curves["gaps"][0]["reason"].get<std::string>(), HasSubstr("is gone"));
 }
 
 TEST_F(ViewServer, ABoardsProgramSaysThatItHasNoViewer)
