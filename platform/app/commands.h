@@ -18,6 +18,7 @@ void add_gadget(CLI::App& program, Command& chosen);
 void add_health(CLI::App& program, Command& chosen);
 void add_list(CLI::App& program, Command& chosen);
 void add_match(CLI::App& program, Command& chosen);
+void add_plant(CLI::App& program, Command& chosen);
 void add_probe(CLI::App& program, Command& chosen);
 void add_process(CLI::App& program, Command& chosen);
 void add_prune(CLI::App& program, Command& chosen);

@@ -42,6 +42,7 @@ int main(int argc, char** argv)
     app::add_config(program, chosen);
     app::add_capture(program, chosen);
     app::add_match(program, chosen);
+    app::add_plant(program, chosen);
     app::add_probe(program, chosen);
     app::add_process(program, chosen);
     app::add_rectify(program, chosen);

@@ -79,7 +79,7 @@ LeafTraits leaf_from(const json& one)
 Result<SnapshotTraits> SnapshotTraits::read(const std::string& path, std::span<const PlantPlace> places)
 {
     const CloudOnDisk cloud = TRY(CloudOnDisk::read(path.c_str()));
-    const PlantWork work = TRY(PlantWork::make(cloud.cloud(), path.c_str(), places));
+    const PlantWork work = TRY(PlantWork::make(cloud.cloud(), path.c_str(), places, cloud.meta().far_mm.value_or(0)));
     SnapshotTraits traits;
     traits.ground_known = work.leaves().ground.kind != GroundFrame::Kind::kNone;
     std::vector<PlantStand> stands(work.traits().plants.size());

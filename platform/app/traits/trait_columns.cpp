@@ -9,6 +9,7 @@ std::span<const PlantColumn> plant_columns()
     static constexpr std::array kColumns{
         PlantColumn{"leaf_area_visible_mm2", "mm²", "cm²", 0.01, "visible leaf area",
                     &PlantTraits::leaf_area_visible_mm2},
+        PlantColumn{"height_max_mm", "mm", "mm", 1, "height", &PlantTraits::height_max_mm},
         PlantColumn{"height_p99_mm", "mm", "mm", 1, "height, 99th percentile", &PlantTraits::height_p99_mm},
         PlantColumn{"height_top10_mean_mm", "mm", "mm", 1, "height, mean of the highest tenth",
                     &PlantTraits::height_top10_mean_mm},

@@ -1,35 +1,11 @@
 #include "traits_csv.h"
 
-#include "../store/shown.h"
+#include "csv_cells.h"
 
 #include "dicot/base/utc_time.h"
 
-#include <charconv>
-#include <cmath>
-
 namespace dicot::app {
 namespace {
-
-/// Six digits; nothing where it is not known.
-std::string cell(double value)
-{
-    if (!std::isfinite(value))
-        return "";
-    char text[32];
-    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6).ptr;
-    return {text, end};
-}
-
-std::string cell(const std::string& text)
-{
-    const std::string plain = shown(text);
-    if (plain.find_first_of(",\"") == std::string::npos)
-        return plain;
-    std::string quoted = "\"";
-    for (const char c : plain)
-        quoted += c == '"' ? std::string{"\"\""} : std::string{c};
-    return quoted + "\"";
-}
 
 std::string local_text(const DayCount& days, std::int64_t utc_us)
 {
@@ -43,26 +19,8 @@ std::string local_text(const DayCount& days, std::int64_t utc_us)
 std::string slot_cells(const BoardTraits& board, const BoardGrowth& growth, const SlotTraits& slot)
 {
     const std::int64_t at_us = slot.traits ? slot.row.began_us : slot.row.due_us.value_or(slot.row.began_us);
-    return cell(board.device) + "," + std::to_string(slot.row.sequence) + "," + utc_text(at_us).c_str() + "," +
-           local_text(growth.days, at_us) + "," + cell(std::string{slot.row.clock_trust.view()});
-}
-
-template <typename Columns, typename Traits>
-std::string measured_cells(const Columns& columns, const Traits& traits)
-{
-    std::string cells;
-    for (const auto& column : columns)
-        cells += "," + cell((traits.*column.measured).value) + "," + cell((traits.*column.measured).sd);
-    return cells;
-}
-
-template <typename Columns>
-std::string measured_names(const Columns& columns)
-{
-    std::string names;
-    for (const auto& column : columns)
-        names += std::string{","} + column.name + "," + column.name + "_sd";
-    return names;
+    return csv_cell(board.device) + "," + std::to_string(slot.row.sequence) + "," + utc_text(at_us).c_str() + "," +
+           local_text(growth.days, at_us) + "," + csv_cell(std::string{slot.row.clock_trust.view()});
 }
 
 /// The traits of which this sighting is no part of the curve.
@@ -94,8 +52,8 @@ std::string plant_csv(const BoardTraits& board, const BoardGrowth& growth)
             const SlotTraits& slot = board.slots[at.slot];
             const PlantTraits& traits = slot.traits->plants[at.index].traits;
             lines[at.slot] += slot_cells(board, growth, slot) + ",done,," + std::to_string(plant.life.id) + "," +
-                              cell(plant.life.name) + measured_cells(plant_columns(), traits) + "," +
-                              cell(traits.greenness) + "," + std::to_string(traits.points) + "," +
+                              csv_cell(plant.life.name) + measured_cells(plant_columns(), traits) + "," +
+                              csv_cell(traits.greenness) + "," + std::to_string(traits.points) + "," +
                               (traits.cut ? "1," : "0,") + outliers_at(plant, k) + "\n";
         }
     std::string csv;
@@ -110,7 +68,7 @@ std::string plant_csv(const BoardTraits& board, const BoardGrowth& growth)
                (slot.traits     ? ",done,"
                 : slot.row.done ? ",unread,"
                                 : ",missed,") +
-               cell(reason) + "," + std::string(1 + 2 * plant_columns().size() + 4, ',') + "\n";
+               csv_cell(reason) + "," + std::string(1 + 2 * plant_columns().size() + 4, ',') + "\n";
     }
     return csv;
 }
@@ -131,11 +89,11 @@ std::string leaf_csv(const BoardTraits& board, const BoardGrowth& growth)
                 const LeafTraits& traits = slot.traits->leaves[at.index];
                 std::string& line = lines[at.slot];
                 line += slot_cells(board, growth, slot) + "," + std::to_string(plant.life.id) + "," +
-                        cell(plant.life.name) + "," + std::to_string(leaf.id) + "," + std::to_string(traits.leaf) +
-                        measured_cells(leaf_columns(), traits) + "," + cell(traits.greenness) + "," +
+                        csv_cell(plant.life.name) + "," + std::to_string(leaf.id) + "," + std::to_string(traits.leaf) +
+                        measured_cells(leaf_columns(), traits) + "," + csv_cell(traits.greenness) + "," +
                         std::to_string(traits.points) + (traits.hidden ? ",1" : ",0") + (traits.cut ? ",1" : ",0");
                 for (const double axis : traits.centre_mm)
-                    line += "," + cell(axis);
+                    line += "," + csv_cell(axis);
                 line += "\n";
             }
     std::string csv;

@@ -84,7 +84,7 @@ static_assert(sizeof(PcdPoint) == 20);
 
 } // namespace
 
-Status write_ply(const char* path, const PointCloud& cloud, const CloudMeta& meta)
+Status write_ply(const char* path, const PointCloud& cloud, const CloudMeta& meta, const PointNumbers& numbers)
 {
     OutputFile file;
     TRY(file.open(path));
@@ -94,12 +94,17 @@ Status write_ply(const char* path, const PointCloud& cloud, const CloudMeta& met
                  "element vertex %zu\n"
                  "property float x\nproperty float y\nproperty float z\n"
                  "property uchar red\nproperty uchar green\nproperty uchar blue\n"
-                 "property float confidence\n"
+                 "property float confidence\n%s"
                  "end_header\n",
-                 cloud.points.size()));
-    for (const CloudPoint& point : cloud.points) {
+                 cloud.points.size(), numbers.leaf.empty() ? "" : "property ushort leaf\nproperty uchar plant\n"));
+    for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+        const CloudPoint& point = cloud.points[i];
         const PlyPoint out{metres_of(point, cloud.grid), point.colour, certainty_of(point)};
         TRY(file.write(&out, sizeof out));
+        if (numbers.leaf.empty())
+            continue;
+        TRY(file.write(&numbers.leaf[i], sizeof numbers.leaf[i]));
+        TRY(file.write(&numbers.plant[i], sizeof numbers.plant[i]));
     }
     return file.commit();
 }
