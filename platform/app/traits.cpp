@@ -51,7 +51,7 @@ Result<TraitsWishes> wishes_of(const TraitsWords& words)
         wishes.places = TRY(read_plant_places(words.places));
         wishes.cache_name = "-" + TRY(digest_of_file(words.places)).substr(0, kShortDigest);
     }
-    wishes.maker = "dicot traits 1 " + TRY(digest_of_file("/proc/self/exe"));
+    wishes.maker = TRY(cache_maker());
     wishes.threads = words.threads > 0 ? words.threads : std::min(ThreadCrew::processors(), 2);
     return wishes;
 }

@@ -39,8 +39,10 @@ private:
 /// The cache's folder if none is named: dicot in XDG_CACHE_HOME, or in ~/.cache. Empty: there is no home.
 std::string usual_cache_folder();
 
-/// 64 hexadecimal digits. Of the program itself, so that no figure of an older one stands beside its own; of the places
-/// of plants. Fault::kNoInput, kIoError.
+/// What a cache is opened with: the digest of this very program, so that no figure of an older one stands beside its
+/// own. Fault::kNoInput, kIoError.
+Result<std::string> cache_maker();
+/// 64 hexadecimal digits. Errors: the same.
 Result<std::string> digest_of_file(const std::string& path);
 
 } // namespace dicot::app

@@ -44,14 +44,15 @@ Scale time_scale(const DayCount& days, double from, double to)
         to = std::ceil(to);
     }
     Scale scale{from, to, step, "", {}};
+    std::string before;
     for (double mark = std::ceil(from / step) * step; mark <= to; mark += step) {
-        // Whole days of this count are local midnights but for summer time, which half an hour more rounds away.
+        // Whole days of this count are local midnights but for summer time, where 23:00 of the day before is meant too.
         const std::string text =
             utc_text(days.local_us(days.utc_us(mark)) + (step >= 1 ? std::int64_t{7'200'000'000} : 0)).c_str();
-        const bool is_first = scale.named.empty();
-        scale.named.emplace_back(mark, step >= 1  ? text.substr(is_first ? 0 : 5, is_first ? 10 : 5)
-                                       : is_first ? text.substr(0, 10) + " " + text.substr(11, 5)
-                                                  : text.substr(11, 5));
+        const std::string begun = text.substr(0, step >= 1 ? 4 : 10); // year or day: said where it begins
+        const std::string rest = step >= 1 ? text.substr(5, 5) : text.substr(11, 5);
+        scale.named.emplace_back(mark, begun == before ? rest : begun + (step >= 1 ? "-" : " ") + rest);
+        before = begun;
     }
     return scale;
 }

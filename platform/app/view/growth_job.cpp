@@ -87,7 +87,7 @@ bool GrowthJob::measure(std::int64_t slots)
     json curves;
     std::int64_t seen = 0;
     const Status done = [&]() -> Status {
-        wishes.maker = "dicot traits 1 " + TRY(digest_of_file("/proc/self/exe")); // as that command has it
+        wishes.maker = TRY(cache_maker());
         // What cannot be measured is told where it is looked at.
         const BoardTraits board = TRY(measure_board(board_, wishes, [](const Status&) {}));
         seen = std::ssize(board.slots);
