@@ -1,17 +1,18 @@
 #include "surfaces.h"
 
+#include "doubt.h"
+#include "neighbourhood.h"
 #include "plane_sums.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdlib>
 #include <utility>
 
 namespace dicot::matching {
 namespace {
 
-constexpr int kRounds = 4, kRoundsAfterChoice = 2;
+constexpr int kRoundsWhenDense = 4, kRounds = 3, kRoundsAfterChoice = 1;
 constexpr int kOnePx = 1 << kSlopeBits;
 /// Neighbours farther from the plane than this are of another surface; wider in the first fit, which knows no slope.
 constexpr int kSameSurface = kOnePx;
@@ -41,62 +42,6 @@ constexpr int kFirstPartner = 3;
 /// Neighbours of the shift: a square of 9, every pixel; of the planes: 17, every second one.
 constexpr int kShiftReach = 4, kShiftStride = 1;
 constexpr int kFitReach = SurfaceRefiner::kReach, kFitStride = 2;
-
-/// The support weights of a strip of pixels to all neighbours, 0 .. 127.
-template <int reach, int stride>
-class Neighbourhood
-{
-public:
-    /// Calls pixel(x, neighbours) for each pixel of row y; neighbours(visit) calls visit(weight, dx, dy) for each one
-    /// that counts. All are inside the picture.
-    template <typename Pixel>
-    static void sweep(const Scene& scene, int y, Pixel&& pixel)
-    {
-        Neighbourhood window;
-        for (int x0 = 0; x0 < scene.width; x0 += kStrip) {
-            const int count = std::min(kStrip, scene.width - x0);
-            window.weigh(scene, y, x0, count);
-            for (int i = 0; i < count; ++i)
-                pixel(x0 + i, [&](auto&& visit) { window.visit(i, visit); });
-        }
-    }
-
-private:
-    static constexpr int kSide = 2 * reach / stride + 1;
-    static constexpr int kStrip = 32;
-
-    void weigh(const Scene& scene, int y, int x0, int count)
-    {
-        constexpr PairU16 kBoth = {kLeftWeightOne, kLeftWeightOne};
-        for (int row = 0; row < kSide; row += 2) {
-            const int dy = row * stride - reach;
-            const LabRow low = scene.left.lab(y + dy);
-            const LabRow high = scene.left.lab(row + 1 < kSide ? y + dy + stride : -1);
-            for (int column = 0; column < kSide; ++column) {
-                const int dx = column * stride - reach;
-                scene.kernels->support_weights(weights_[static_cast<std::size_t>(row / 2 * kSide + column)].data(),
-                                               count, moved(scene.left.lab(y), x0), moved(low, x0 + dx),
-                                               moved(high, x0 + dx), scene.colour.table, kBoth);
-            }
-        }
-    }
-
-    template <typename Visit>
-    void visit(int i, Visit&& visit) const
-    {
-        for (int row = 0; row < kSide; ++row) {
-            for (int column = 0; column < kSide; ++column) {
-                const PairU16 pair =
-                    weights_[static_cast<std::size_t>(row / 2 * kSide + column)][static_cast<std::size_t>(i)];
-                const int weight = (row % 2 == 0 ? pair.low : pair.high) >> 8;
-                if (weight > 0)
-                    visit(weight, column * stride - reach, row * stride - reach);
-            }
-        }
-    }
-
-    std::array<std::array<PairU16, kStrip>, static_cast<std::size_t>((kSide + 1) / 2 * kSide)> weights_;
-};
 
 /// Catmull and Rom's cubic through four values, `t` of kSlopeBits fraction bits from the second to the third.
 int cubic(const std::int16_t* p, int t)
@@ -130,57 +75,6 @@ struct ShiftSums
 constexpr std::int64_t kSquareUnit = std::int64_t{64 * 64} * 128;
 /// Noise has gradients too: this much is none.
 constexpr std::int64_t kNoTexture = 30 * kSquareUnit;
-
-/// Of which nobody can say how good it is.
-constexpr std::int16_t kHopeless = INT16_MAX;
-/// With more doubt there is no value, and with kRange less there is none. In 1/256, as all doubt.
-constexpr int kMostDoubt = -760;
-constexpr int kRange = 3140;
-/// Nobody takes a plane with more doubt from a neighbour (without doubt_of_winner()).
-constexpr int kDoubtfulPlane = kMostDoubt + 400;
-
-/// log2, 8 fraction bits, straight between powers of two; 0 for 0.
-int log2_q8(std::uint64_t x)
-{
-    const int exponent = std::max(static_cast<int>(std::bit_width(x)) - 1, 0);
-    return (exponent << 8) + static_cast<int>((x << 8 >> exponent) & 255);
-}
-
-// Doubt is the logarithm of the odds that a leaf's depth is wrong, times a factor: fitted (logistic regression) to the
-// rendered plants, where the shares of one species come out alike without it. Shares are in 1/64.
-
-/// A shift is doubtful where the pictures differ at it, where there is little texture to tell, and where many
-/// neighbours that look alike could not be told from each other. `support` is their weight, 127 each.
-std::int16_t doubt_of_shift(std::int64_t variance, std::int64_t texture, std::int64_t support)
-{
-    constexpr int kOne = 256; // (1/16 grey level)^2 in 1 grey level^2
-    constexpr int kTextureShare = 51, kSupportShare = 52;
-    const int differs = log2_q8(static_cast<std::uint64_t>(std::max<std::int64_t>(variance, 0) + kOne)) - (8 << 8);
-    const int tells = log2_q8(static_cast<std::uint64_t>(texture + 5));
-    const int alike = log2_q8(static_cast<std::uint64_t>(support + 127) * 256 / 127) - (8 << 8);
-    return static_cast<std::int16_t>(differs + (alike * kSupportShare - tells * kTextureShare) / 64);
-}
-
-/// A plane is doubtful where few of the neighbours asked are on it, and where those are not quite.
-int doubt_of_plane(std::int64_t agreed, std::int64_t asked, std::int64_t deviation)
-{
-    constexpr int kAlone = 2381; // 9.3 for all
-    constexpr int kUneven = 826; // 3.2 a px
-    return static_cast<int>(deviation * kUneven / kOnePx - agreed * kAlone / asked);
-}
-
-/// So is what ended far from the winner, 1/256 px, and a winner with a rival: `margin` is its confidence.
-int doubt_of_winner(int moved, int margin)
-{
-    constexpr int kFar = 8 << 8, kMovedShare = 48, kMarginShare = 23;
-    const int away = log2_q8(static_cast<std::uint64_t>(std::min(moved, kFar) + 256)) - (8 << 8);
-    return (away * kMovedShare - log2_q8(static_cast<std::uint64_t>(margin + 1)) * kMarginShare) / 64;
-}
-
-std::uint8_t confidence_of(int doubt)
-{
-    return static_cast<std::uint8_t>(std::clamp((kMostDoubt - doubt) * 255 / kRange, 0, 255));
-}
 
 template <typename Pixel>
 ImageView<Pixel> take_plane(Arena& arena, const Scene& scene)
@@ -432,7 +326,7 @@ void SurfaceRefiner::refine(const Scene& scene, const Maps& maps, bool dense, Cr
     read_brightness(scene, crew);
     fit_planes(scene, crew, kSameSurfaceAtFirst);
     fit_planes(scene, crew, kSameSurface);
-    run_rounds(scene, maps, kRounds, crew);
+    run_rounds(scene, maps, dense ? kRoundsWhenDense : kRounds, crew);
     if (!dense) {
         crew.run(scene.height, [&](int y) { choose_row(scene, maps, y); });
         std::swap(slopes_, next_);
