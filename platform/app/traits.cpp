@@ -1,5 +1,6 @@
 // dicot traits: what grew in an archive, as tables, curves and pictures.
 #include "commands.h"
+#include "plant/plant_places.h"
 #include "pull/archive_folder.h"
 #include "stop_request.h"
 #include "store/shown.h"
@@ -23,6 +24,7 @@ namespace dicot::app {
 namespace {
 
 constexpr const char* kStandardOutput = "-";
+constexpr std::size_t kShortDigest = 16; ///< of its 64 digits
 
 struct TraitsWords
 {
@@ -45,7 +47,11 @@ Result<TraitsWishes> wishes_of(const TraitsWords& words)
     wishes.query = TRY(query_between(words.since, words.until));
     wishes.timezone = words.timezone;
     wishes.cache_folder = words.cache.empty() ? usual_cache_folder() : words.cache;
-    wishes.maker = "dicot traits 1 " + TRY(digest_of_program());
+    if (!words.places.empty()) {
+        wishes.places = TRY(read_plant_places(words.places));
+        wishes.cache_name = "-" + TRY(digest_of_file(words.places)).substr(0, kShortDigest);
+    }
+    wishes.maker = TRY(cache_maker());
     wishes.threads = words.threads > 0 ? words.threads : std::min(ThreadCrew::processors(), 2);
     return wishes;
 }
@@ -133,13 +139,18 @@ void add_traits(CLI::App& program, Command& chosen)
     command->add_option("--since", words->since, "from this day or time on, UTC")->type_name("TIME");
     command->add_option("--until", words->until, "to the end of this day or time, UTC")->type_name("TIME");
     command
-        ->add_option("--csv", words->csv,
-                     "a table, a line a plant and snapshot, and NAME.leaves.csv beside NAME.csv; without FILE the "
-                     "first alone, to standard output")
+        ->add_option(
+            "--csv", words->csv,
+            "a line a plant and snapshot, and a line a leaf in FILE's name with .leaves.csv; no FILE: the first "
+            "to standard output")
         ->type_name("FILE")
         ->expected(0, 1)
         ->default_str(kStandardOutput);
     command->add_option("--plot", words->plot, "folder for the curves as SVG, and a page of them")->type_name("DIR");
+    command
+        ->add_option("--plants", words->places,
+                     "plants by name: CSV with name, min_x_mm .. max_z_mm, boxes in the ground frame")
+        ->type_name("FILE");
     command->add_option("--timezone", words->timezone, "where the plants stand (default: as the records say)")
         ->type_name("ZONE");
     command->add_option("--cache", words->cache, "folder of what was measured before (default: ~/.cache/dicot)")

@@ -19,8 +19,8 @@ namespace dicot::test {
 class ArchiveFolder
 {
 public:
-    ArchiveFolder(const std::string& root, const std::string& device, std::string timezone = "UTC")
-        : board_(std::filesystem::path(root) / device), timezone_(std::move(timezone))
+    ArchiveFolder(const std::string& root, const std::string& device, std::string zone = "UTC")
+        : board_(std::filesystem::path(root) / device), zone_(std::move(zone))
     {
         std::filesystem::create_directories(board_);
         std::ofstream(board_ / "ARCHIVE");
@@ -57,7 +57,7 @@ private:
         std::ofstream(folder / "record.json")
             << R"({"format": "dicot record 1", "sequence": )" << sequence << R"(, "time": ")" << when
             << R"(", "due": ")" << when
-            << R"(", "clock": {"trust": "synchronised"}, "parameters": {"schedule": {"timezone": ")" << timezone_
+            << R"(", "clock": {"trust": "synchronised"}, "parameters": {"schedule": {"timezone": ")" << zone_
             << R"("}}, )" << outcome << "}";
         std::set<std::filesystem::path> files;
         for (const auto& entry : std::filesystem::directory_iterator(folder))
@@ -73,7 +73,7 @@ private:
     }
 
     std::filesystem::path board_;
-    std::string timezone_;
+    std::string zone_;
 };
 
 } // namespace dicot::test

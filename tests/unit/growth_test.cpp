@@ -208,6 +208,21 @@ TEST(Growth, NamesOutliersAndIsNotTurnedByThem)
     EXPECT_LT(value.rms, 0.3 * 4);
 }
 
+TEST(Growth, AHarvestIsFollowedAndNotTakenForOutliers)
+{
+    constexpr double kCut = 30, kLeft = 0.5;
+    std::vector<GrowthSample> samples = drawn({.swing = 0});
+    for (GrowthSample& sample : samples)
+        if (sample.day > kCut)
+            sample.measured.value *= kLeft;
+    const Fitted fitted(samples);
+    EXPECT_LE(fitted.fit.outliers, 12) << "those of a day and a half";
+    for (const GrowthPoint& point : fitted.fit.curve)
+        if (std::abs(point.day - kCut) > 1.5) {
+            EXPECT_NEAR(point.value.value, area_at(point.day) * (point.day > kCut ? kLeft : 1), 8) << point.day;
+        }
+}
+
 TEST(Growth, DoesNotBridgeALongGap)
 {
     std::vector<GrowthSample> samples = drawn({});

@@ -2,6 +2,7 @@
 
 #include "robust.h"
 #include "smoothing_spline.h"
+#include "time_of_day.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,9 @@
 namespace dicot {
 namespace {
 
+using growth::clock_distance;
+using growth::Daily;
+using growth::daily_regressors;
 using growth::kDaily;
 using growth::Smoothed;
 using growth::SmoothingSpline;
@@ -29,8 +33,6 @@ constexpr double kApartDays = 3.0 / 24;
 constexpr double kToldWithinHours = 2;
 constexpr double kLeastBridgeDays = 2;
 constexpr double kBridgedSpacings = 3;
-
-using Daily = std::array<double, kDaily>;
 
 struct Desk
 {
@@ -56,33 +58,9 @@ bool is_measured(const GrowthSample& sample)
     return std::isfinite(sample.measured.value) && std::isfinite(sample.day);
 }
 
-Daily daily_regressors(double hour)
-{
-    Daily row{};
-    if (!std::isfinite(hour))
-        return row;
-    const double turned = hour - 24 * std::floor(hour / 24);
-    const double place = turned / 24 * growth::kKnots;
-    const int knot = std::min(static_cast<int>(place), growth::kKnots - 1);
-    const double f = place - knot;
-    const double weights[3] = {(1 - f) * (1 - f) / 2, 0.5 + f - f * f, f * f / 2};
-    for (int k = 0; k < 3; ++k) {
-        const int at = (knot + k) % growth::kKnots;
-        for (int i = 0; i < kDaily; ++i)
-            row[static_cast<std::size_t>(i)] += at == i ? weights[k] : at == kDaily ? -weights[k] : 0;
-    }
-    return row;
-}
-
 double square(double value)
 {
     return value * value;
-}
-
-double clock_distance(double a, double b)
-{
-    const double apart = std::abs(a - b);
-    return std::min(apart, 24 - apart);
 }
 
 std::size_t points_of(const GrowthRules& rules)

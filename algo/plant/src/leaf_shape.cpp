@@ -98,7 +98,7 @@ public:
     /// `side`: -1 towards the least `along`, +1 towards the greatest.
     MidribEnd end(float side) const
     {
-        const double strip = std::max(0.04 * widest_, shape_.across_spacing_mm);
+        const double strip = std::max(0.02 * widest_, shape_.across_spacing_mm);
         std::array<double, kMostSections> reach{};
         std::array<bool, kMostSections> crossed{};
         std::array<const Place*, 3> outermost{}; // the last of them: two may be strays
@@ -123,7 +123,8 @@ public:
             else if (last >= 0 && std::abs(i - last) > hole)
                 break;
         }
-        const MidribEnd tip{outermost.back()->along, outermost.back()->across, false};
+        const double tip_along = outermost.back()->along;
+        const MidribEnd tip{tip_along, middle_at(tip_along), false};
         if (last < 0)
             return tip;
         const double ends = reach[static_cast<std::size_t>(last)];
@@ -211,7 +212,9 @@ public:
             const double chord =
                 double(sorted[at - 1].across) - double(sorted[first].across) + shape_.across_spacing_mm;
             const double slope = profile.slope + 2 * profile.bend * sections_.along(i);
-            area += covered * across_mm(i) / chord * sections_.step * std::sqrt(1 + slope * slope);
+            const bool outer = i == 0 || i == sections_.count - 1; // half a cell lies beyond the centres
+            const double step_mm = sections_.step + (outer ? shape_.along_spacing_mm / 2 : 0);
+            area += covered * across_mm(i) / chord * step_mm * std::sqrt(1 + slope * slope);
         }
         return area;
     }
@@ -234,6 +237,19 @@ private:
     static double extended(const Sample& near, const Sample& far, double at)
     {
         return near.value + (near.value - far.value) / (near.at - far.at) * (at - near.at);
+    }
+
+    /// Across, of the cells of an end.
+    double middle_at(double along) const
+    {
+        double sum = 0;
+        int count = 0;
+        for (const Place& place : places_)
+            if (std::fabs(place.along - along) <= 1.5 * shape_.along_spacing_mm) {
+                sum += place.across;
+                ++count;
+            }
+        return sum / count;
     }
 
     bool two_lobes_beyond(double ends, double side) const
@@ -371,7 +387,10 @@ LeafShape leaf_shape(std::span<SurfaceCell> cells, double focal_px, std::span<Pl
         const auto rest = std::partition(
             cells.begin(), cells.end(), [&](const SurfaceCell& cell) { return blade.holds(frame.place(where(cell))); });
         const auto count = static_cast<std::size_t>(rest - cells.begin());
-        if (count == cells.size() || count < kFewestCells)
+        // A petiole is a small part of what is seen of a leaf; a large one is another leaf.
+        constexpr double kPetioleShare = 0.35;
+        if (count == cells.size() || count < kFewestCells ||
+            static_cast<double>(count) < (1 - kPetioleShare) * static_cast<double>(cells.size()))
             break;
         cells = cells.first(count);
         places = places.first(count);

@@ -1,6 +1,6 @@
 #include "plant_shape.h"
 
-#include "convex_hull.h"
+#include "dicot/plant/convex_hull.h"
 #include "greenness.h"
 #include "root_of_squares.h"
 #include "vec3.h"
@@ -16,6 +16,9 @@ namespace {
 constexpr double kRaster_mm = 4;
 /// A plant that spans more has larger cells.
 constexpr int kMostAcross = 400;
+
+/// One leaf's cells of the picture may fall into a cell of the raster by a quarter more than their share.
+constexpr double kTwice = 1.25;
 
 struct RasterCell
 {
@@ -164,7 +167,7 @@ void measure_plant(const PlantView& view, const Leaves& leaves, const LeafSurfac
     });
     for (int leaf = 1; leaf <= leaves.leaf_count; ++leaf)
         if (leaves.plant_of_leaf[static_cast<std::size_t>(leaf - 1)] == plant.plant)
-            for (const SurfaceCell& cell : surfaces.of(leaf))
+            for (const SurfaceCell& cell : surfaces.blade_of(leaf))
                 cell_at(ground.place({cell.x, cell.y, cell.z})).covered_mm2 += cell.from_above_mm2;
 
     double projected = 0;
@@ -177,7 +180,8 @@ void measure_plant(const PlantView& view, const Leaves& leaves, const LeafSurfac
             std::clamp(std::floor(mm / grid_mm + 0.5), -double(kHullReach), double(kHullReach)));
     };
     for (const RasterCell& cell : raster) {
-        projected += std::min<double>(cell.covered_mm2, cell_mm * cell_mm);
+        const double whole = cell_mm * cell_mm;
+        projected += cell.covered_mm2 > kTwice * whole ? whole : cell.covered_mm2;
         if (cell.highest_mm < cell.lowest_mm)
             continue;
         for (std::size_t i = 0; i < 2; ++i)

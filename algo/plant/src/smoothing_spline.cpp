@@ -10,9 +10,9 @@ namespace dicot::growth {
 namespace {
 
 /// What the columns have at a step.
-std::array<double, kColumns> regressors(const Step& step)
+Row regressors(const Step& step)
 {
-    std::array<double, kColumns> row{1, step.time};
+    Row row{1, step.time};
     std::ranges::copy(step.daily, row.begin() + 2);
     return row;
 }
@@ -134,7 +134,7 @@ double SmoothingSpline::form(const Row& a, const Row& b) const
     return sum;
 }
 
-Measured SmoothingSpline::daily_difference(const std::array<double, kDaily>& daily) const
+Measured SmoothingSpline::daily_difference(const Daily& daily) const
 {
     Row row{};
     double value = 0;

@@ -1,6 +1,8 @@
 // A cubic smoothing spline with regressors beside it, as a state space model: exact, and linear in time and memory.
 #pragma once
 
+#include "time_of_day.h"
+
 #include "dicot/base/arena.h"
 #include "dicot/plant/traits.h"
 
@@ -10,10 +12,6 @@
 
 namespace dicot::growth {
 
-/// B-splines of second order around the clock, a knot every four hours. They add up to 1, so the last one's weight is
-/// minus the sum of the others'.
-inline constexpr int kKnots = 6;
-inline constexpr int kDaily = kKnots - 1;
 /// Level and slope at the first step, then the time of day.
 inline constexpr int kColumns = 2 + kDaily;
 
@@ -25,7 +23,7 @@ struct Step
     double time = 0;  ///< the first is at 0, the last at 1 or all at 0
     double value = 0; ///< of a sample
     double noise = 0; ///< its variance, but for the common factor; 0: no sample, only a place to know the curve at
-    std::array<double, kDaily> daily{}; ///< its regressors; 0 where the time of day is left out
+    Daily daily{};    ///< its regressors; 0 where the time of day is left out
 };
 
 /// What is known of one step when all samples have been heard; the level together with the step's time of day.
@@ -59,7 +57,7 @@ public:
     /// By which the given variances are to be multiplied; at least 1 where they are known. NaN: nobody can say.
     double noise_factor() const { return noise_factor_; }
     /// `daily` is a difference of regressors, with one time of day and with another.
-    Measured daily_difference(const std::array<double, kDaily>& daily) const;
+    Measured daily_difference(const Daily& daily) const;
 
     /// Backwards over the steps of the last fit().
     void smooth(std::span<const Step> steps, std::span<Smoothed> into) const;

@@ -185,7 +185,7 @@ Result<BoardTraits> measure_board(const DeviceFolder& board, const TraitsWishes&
 
     TraitsCache cache;
     if (!wishes.cache_folder.empty())
-        cache = TRY(TraitsCache::open(wishes.cache_folder, board.device, wishes.maker));
+        cache = TRY(TraitsCache::open(wishes.cache_folder, board.device + wishes.cache_name, wishes.maker));
     std::vector<SlotTraits*> left;
     for (SlotTraits& slot : told.slots) {
         if (!slot.gap.empty())

@@ -37,7 +37,8 @@ struct TraitsWishes
     std::vector<PlantPlace> places;
     std::string timezone;     ///< empty: as the newest record that has one
     std::string cache_folder; ///< empty: nothing is remembered
-    std::string maker;        ///< of the cache: program and places
+    std::string cache_name;   ///< behind the board's: of the places, whose figures are kept apart
+    std::string maker;        ///< of the cache: the program
     int threads = 2;
 };
 

@@ -29,10 +29,15 @@ std::string usual_cache_folder()
     return home != nullptr && home[0] == '/' ? std::string{home} + "/.cache/dicot" : std::string{};
 }
 
-Result<std::string> digest_of_program()
+Result<std::string> cache_maker()
+{
+    return "dicot traits 1 " + TRY(digest_of_file("/proc/self/exe"));
+}
+
+Result<std::string> digest_of_file(const std::string& path)
 {
     InputFile file;
-    TRY(file.open("/proc/self/exe"));
+    TRY(file.open(path.c_str()));
     Sha256Stream stream;
     std::vector<std::byte> piece(std::size_t{1} << 18);
     for (;;) {
@@ -43,7 +48,7 @@ Result<std::string> digest_of_program()
     }
 }
 
-Result<TraitsCache> TraitsCache::open(const std::string& folder, const std::string& device, const std::string& maker)
+Result<TraitsCache> TraitsCache::open(const std::string& folder, const std::string& name, const std::string& maker)
 {
     TraitsCache cache;
     std::error_code error;
@@ -52,7 +57,7 @@ Result<TraitsCache> TraitsCache::open(const std::string& folder, const std::stri
         return failure(Fault::kCannotCreate,
                        "%s: the folder of the cache cannot be made (%s): name another with --cache",
                        shown(folder).c_str(), error.message().c_str());
-    cache.path_ = folder + "/" + device + ".traits";
+    cache.path_ = folder + "/" + name + ".traits";
     bool is_ours = false;
     {
         std::ifstream before(cache.path_, std::ios::binary);

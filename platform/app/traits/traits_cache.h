@@ -18,8 +18,8 @@ class TraitsCache
 public:
     TraitsCache() = default; ///< remembers nothing
 
-    /// In `folder`, which is made; `maker` names the program and what it was told. Fault::kCannotCreate, kIoError.
-    static Result<TraitsCache> open(const std::string& folder, const std::string& device, const std::string& maker);
+    /// `name`.traits in `folder`, which is made; `maker` names the program. Fault::kCannotCreate, kIoError.
+    static Result<TraitsCache> open(const std::string& folder, const std::string& name, const std::string& maker);
 
     const SnapshotTraits* find(std::string_view sums) const;
     /// Kept when it returns, as far as the process is concerned. Fault::kIoError: the disk is full.
@@ -39,7 +39,10 @@ private:
 /// The cache's folder if none is named: dicot in XDG_CACHE_HOME, or in ~/.cache. Empty: there is no home.
 std::string usual_cache_folder();
 
-/// Of this very program, so that no figure of an older one stands beside its own. Fault::kIoError.
-Result<std::string> digest_of_program();
+/// What a cache is opened with: the digest of this very program, so that no figure of an older one stands beside its
+/// own. Fault::kNoInput, kIoError.
+Result<std::string> cache_maker();
+/// 64 hexadecimal digits. Errors: the same.
+Result<std::string> digest_of_file(const std::string& path);
 
 } // namespace dicot::app

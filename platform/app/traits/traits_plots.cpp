@@ -39,15 +39,20 @@ Scale time_scale(const DayCount& days, double from, double to)
             step = one;
             break;
         }
+    if (step >= 1) { // whole days
+        from = std::floor(from);
+        to = std::ceil(to);
+    }
     Scale scale{from, to, step, "", {}};
+    std::string before;
     for (double mark = std::ceil(from / step) * step; mark <= to; mark += step) {
-        // Whole days of this count are local midnights but for summer time, which half an hour more rounds away.
+        // Whole days of this count are local midnights but for summer time, where 23:00 of the day before is meant too.
         const std::string text =
             utc_text(days.local_us(days.utc_us(mark)) + (step >= 1 ? std::int64_t{7'200'000'000} : 0)).c_str();
-        const bool is_first = scale.named.empty();
-        scale.named.emplace_back(mark, step >= 1  ? text.substr(is_first ? 0 : 5, is_first ? 10 : 5)
-                                       : is_first ? text.substr(0, 10) + " " + text.substr(11, 5)
-                                                  : text.substr(11, 5));
+        const std::string begun = text.substr(0, step >= 1 ? 4 : 10); // year or day: said where it begins
+        const std::string rest = step >= 1 ? text.substr(5, 5) : text.substr(11, 5);
+        scale.named.emplace_back(mark, begun == before ? rest : begun + (step >= 1 ? "-" : " ") + rest);
+        before = begun;
     }
     return scale;
 }
@@ -96,7 +101,8 @@ void draw_gaps(Plot& plot, const BoardGrowth& growth, double from, double to)
     }
 }
 
-void draw_curve(Plot& plot, const GrowthFit& fit, double scale)
+/// A curve and its band, interrupted where nothing is known.
+void draw_curve(Plot& plot, std::span<const std::pair<double, Measured>> points, double scale)
 {
     std::vector<PlotPoint> curve, low, high;
     const auto flush = [&] {
@@ -107,16 +113,16 @@ void draw_curve(Plot& plot, const GrowthFit& fit, double scale)
         for (auto* part : {&curve, &low, &high})
             part->clear();
     };
-    for (const GrowthPoint& point : fit.curve) {
-        if (std::isnan(point.value.value)) {
+    for (const auto& [x, measured] : points) {
+        if (std::isnan(measured.value)) {
             flush();
             continue;
         }
-        const double value = scale * point.value.value;
-        const double reach = std::isfinite(point.value.sd) ? scale * kBandSds * point.value.sd : 0;
-        curve.emplace_back(point.day, value);
-        low.emplace_back(point.day, value - reach);
-        high.emplace_back(point.day, value + reach);
+        const double value = scale * measured.value;
+        const double reach = std::isfinite(measured.sd) ? scale * kBandSds * measured.sd : 0;
+        curve.emplace_back(x, value);
+        low.emplace_back(x, value - reach);
+        high.emplace_back(x, value + reach);
     }
     flush();
 }
@@ -141,7 +147,10 @@ std::string drawn_series(const BoardGrowth& growth, const TraitSeries& series, c
     Plot plot(kWidth, kHeight, time_scale(growth.days, from, to), value_scale(low, high, series.column->drawn_unit),
               title);
     draw_gaps(plot, growth, from, to);
-    draw_curve(plot, series.fit, scale);
+    std::vector<std::pair<double, Measured>> curve;
+    for (const GrowthPoint& point : series.fit.curve)
+        curve.emplace_back(point.day, point.value);
+    draw_curve(plot, curve, scale);
     if (series.samples.size() <= kMostSpreads)
         for (std::size_t k = 0; k < series.samples.size(); ++k) {
             const auto& [value, sd] = series.samples[k].measured;
@@ -155,22 +164,17 @@ std::string drawn_series(const BoardGrowth& growth, const TraitSeries& series, c
 
 std::string drawn_daily(const TraitSeries& series, const std::string& title)
 {
-    std::vector<PlotPoint> curve, low, high;
     const double scale = series.column->drawn_units;
-    double reach = 0;
+    std::vector<std::pair<double, Measured>> hours;
+    double reach = 1e-6;
     for (int hour = 0; hour <= GrowthFit::kHours; ++hour) {
         const Measured& at = series.fit.daily[static_cast<std::size_t>(hour % GrowthFit::kHours)];
-        if (std::isnan(at.value))
-            continue;
-        curve.emplace_back(hour, scale * at.value);
-        low.emplace_back(hour, scale * (at.value - kBandSds * at.sd));
-        high.emplace_back(hour, scale * (at.value + kBandSds * at.sd));
-        reach = std::max({reach, std::abs(low.back().second), std::abs(high.back().second)});
+        hours.emplace_back(hour, at);
+        if (std::isfinite(at.value))
+            reach = std::max(reach, scale * (std::abs(at.value) + kBandSds * at.sd));
     }
-    Plot plot(kWidth, 240, Scale{0, 24, 3, "h", {}},
-              Scale::around(-reach, std::max(reach, 1e-6), 4, series.column->drawn_unit), title);
-    plot.band(low, high, "band");
-    plot.curve(curve, "trace");
+    Plot plot(kWidth, 240, Scale{0, 24, 3, "h", {}}, Scale::around(-reach, reach, 4, series.column->drawn_unit), title);
+    draw_curve(plot, hours, scale);
     return plot.drawn();
 }
 

@@ -11,7 +11,7 @@
 namespace dicot::app {
 namespace {
 
-constexpr std::size_t kMostGaps = 12; ///< in words
+constexpr std::size_t kMostGaps = 6;
 
 std::string series_line(const TraitSeries& series)
 {
@@ -53,6 +53,22 @@ std::string plant_words(const BoardTraits& board, const PlantGrowth& plant)
            " of them in the last snapshot\n";
 }
 
+/// The longest ones, in the order of time.
+std::string gap_words(std::vector<SeriesGap> gaps)
+{
+    const std::size_t all = gaps.size();
+    std::ranges::stable_sort(gaps, std::ranges::greater{}, &SeriesGap::slots);
+    gaps.resize(std::min(all, kMostGaps));
+    std::ranges::sort(gaps, {}, &SeriesGap::from_us);
+    std::string text;
+    for (const SeriesGap& gap : gaps)
+        text += std::string{"  gap between "} + utc_text(gap.from_us).c_str() + " and " + utc_text(gap.to_us).c_str() +
+                ": " + counted(gap.slots, "slot") + ", " + shown(gap.reason) + "\n";
+    if (all > gaps.size())
+        text += "  and " + counted(static_cast<std::int64_t>(all - gaps.size()), "shorter gap") + ": --csv has all\n";
+    return text;
+}
+
 } // namespace
 
 std::string growth_words(const BoardTraits& board, const BoardGrowth& growth)
@@ -62,13 +78,7 @@ std::string growth_words(const BoardTraits& board, const BoardGrowth& growth)
     std::string text = shown(board.device) + ": " + counted(std::ssize(board.slots), "slot") + ", " +
                        std::to_string(measured) + " measured (" + std::to_string(board.from_cache) +
                        " before), time of day in " + board.zone.name() + "\n";
-    for (std::size_t k = 0; k < std::min(growth.gaps.size(), kMostGaps); ++k) {
-        const SeriesGap& gap = growth.gaps[k];
-        text += std::string{"  gap between "} + utc_text(gap.from_us).c_str() + " and " + utc_text(gap.to_us).c_str() +
-                ": " + counted(gap.slots, "slot") + ", " + shown(gap.reason) + "\n";
-    }
-    if (growth.gaps.size() > kMostGaps)
-        text += "  " + std::to_string(growth.gaps.size() - kMostGaps) + " gaps more: --csv has all\n";
+    text += gap_words(growth.gaps);
     for (const PlantGrowth& plant : growth.plants)
         if (!plant.life.seen.empty())
             text += plant_words(board, plant);

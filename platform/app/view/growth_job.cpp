@@ -3,6 +3,7 @@
 #include "../stop_request.h"
 #include "../store/shown.h"
 #include "../traits/growth_series.h"
+#include "../traits/traits_cache.h"
 #include "curves_json.h"
 
 #include <algorithm>
@@ -86,7 +87,7 @@ bool GrowthJob::measure(std::int64_t slots)
     json curves;
     std::int64_t seen = 0;
     const Status done = [&]() -> Status {
-        wishes.maker = "dicot traits 1 " + TRY(digest_of_program()); // as that command has it
+        wishes.maker = TRY(cache_maker());
         // What cannot be measured is told where it is looked at.
         const BoardTraits board = TRY(measure_board(board_, wishes, [](const Status&) {}));
         seen = std::ssize(board.slots);

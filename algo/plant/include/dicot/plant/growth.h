@@ -59,7 +59,7 @@ struct GrowthFit
                                         ///< sample within two hours of it
     int used = 0;
     int outliers = 0;
-    double sd_factor = 1; ///< by how much samples scatter more than their sd says; never below 1 where sds are given
+    double sd_factor = 1; ///< by how much samples scatter more than their sd says, 1 at least; NaN: no sd was given
     double longest_bridge_days = 0;
 };
 
