@@ -217,7 +217,8 @@ MatchOutcome Matcher::match(ImageView<const Rgb8> left, ImageView<const Rgb8> ri
     if (best)
         bench.refiner.refine(scene, bench.maps, options_.dense, crew);
     if (best) {
-        bench.highlights.match(scene, bench.maps, crew);
+        if (!options_.dense)
+            bench.highlights.match(scene, bench.maps, crew);
         drop_farther(bench.maps, scene.farther);
     }
     if (options_.dense && best) {
