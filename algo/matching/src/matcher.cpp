@@ -212,7 +212,7 @@ MatchOutcome Matcher::match(ImageView<const Rgb8> left, ImageView<const Rgb8> ri
         drop_clipped(bench.maps, scene.min_disparity);
         drop_speckles(bench.maps, bench.columns);
     }
-    if (best || !options_.dense)
+    if (!best && !options_.dense)
         drop_unmatched(bench.maps);
     if (best)
         bench.refiner.refine(scene, bench.maps, options_.dense, crew);
