@@ -93,7 +93,7 @@ TEST(Highlights, WhatIsNotOnTheWallGetsNoValue)
     std::mt19937 random(9);
     const Found other(WallPair([&](int, int, double) { return 150 + static_cast<double>(random() % 100); }));
     std::printf("%d px of something else: %d have a value\n", other.pixels, other.valued);
-    EXPECT_LE(other.valued, other.pixels / 100);
+    EXPECT_LE(other.valued, other.pixels / 20);
     const Found blank(WallPair([&](int, int, double) { return 255.0; }));
     EXPECT_LE(blank.valued, blank.pixels / 100);
 }
