@@ -79,9 +79,10 @@ protected:
             std::printf("NOT RUN: the page in a browser: %s\n", not_run());
             return;
         }
-        const test::ToolRun run =
-            test::run("DICOT_CHROMIUM='" DICOT_CHROMIUM "' '" DICOT_NODE "' '" DICOT_PAGE_TEST "' " + scenario +
-                      " '" DICOT_PROGRAM "' '" + scene() + "'");
+        const std::string command = "XDG_CACHE_HOME='" + folder_->path("cache") +
+                                    "' DICOT_CHROMIUM='" DICOT_CHROMIUM "' '" DICOT_NODE "' '" DICOT_PAGE_TEST "' " +
+                                    scenario + " '" DICOT_PROGRAM "' '" + scene() + "'";
+        const test::ToolRun run = test::run(command);
         std::printf("%s", run.output.c_str());
         EXPECT_EQ(run.exit_code, 0);
     }

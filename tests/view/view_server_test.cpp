@@ -57,6 +57,7 @@ protected:
     void SetUp() override
     {
         root_ = copy();
+        ASSERT_EQ(::setenv("XDG_CACHE_HOME", (root_ + "-cache").c_str(), 1), 0); // what is measured is kept there
         Result<std::unique_ptr<ViewSite>> opened = ViewSite::open(root_, {});
         ASSERT_TRUE(opened.ok()) << opened.status().message();
         site_ = std::move(opened).value();
@@ -196,6 +197,27 @@ TEST_F(ViewServer, ACloudAloneIsABoardOfOneSlot)
     EXPECT_EQ(*alone.value()->answer("data/0/1/cloud.drc").body, test::text_of(cloud));
     EXPECT_EQ(alone.value()->answer("data/0/1/left.jpg").status, 200); // made of the cloud
     EXPECT_FALSE(ViewSite::open(root_ + "/nothing", {}).ok());
+}
+
+TEST_F(ViewServer, GrowthIsOfEverySlot)
+{
+    site_->wait_for_growth();
+    const json curves = json::parse(*site_->answer("data/0/curves.json").body);
+    EXPECT_EQ(curves["complete"], true) << curves;
+    EXPECT_EQ(curves["slots"], 3);
+    EXPECT_FALSE(curves.contains("error")) << curves["error"];
+    EXPECT_EQ(curves["traits"][0]["key"], "leaf_area_visible_mm2");
+    ASSERT_EQ(curves["gaps"].size(), 1U) << curves["gaps"];
+    EXPECT_EQ(curves["gaps"][0]["slots"], 1);
+    EXPECT_THAT(curves["gaps"][0]["reason"].get<std::string>(), HasSubstr("is gone"));
+}
+
+TEST_F(ViewServer, ABoardsProgramSaysThatItHasNoViewer)
+{
+    const test::ToolRun run = test::run(DICOT_BOARD " view '" + root_ + "'");
+    EXPECT_EQ(run.exit_code, 69);
+    EXPECT_THAT(run.output, HasSubstr("built without the viewer"));
+    EXPECT_EQ(test::run("ldd " DICOT_BOARD).output.find("libssl"), std::string::npos);
 }
 
 TEST_F(ViewServer, AnExportHasAFileForEachAnswer)

@@ -20,7 +20,7 @@ function(dicot_fetch_packages from into missing)
     configure_file("${from}/${name}" "${into}/${name}" COPYONLY)
   endforeach()
   message(STATUS "Fetching npm's packages for ${from}")
-  execute_process(COMMAND "${DICOT_NPM}" ci --ignore-scripts --no-audit --no-fund --prefer-offline --fetch-retries=1
+  execute_process(COMMAND "${DICOT_NPM}" ci --ignore-scripts --no-audit --no-fund --prefer-offline --fetch-retries=1 --fetch-timeout=30000
     WORKING_DIRECTORY "${into}" RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said)
   if(NOT code EQUAL 0)
     string(REPLACE "\n" " " said "${said}")

@@ -42,7 +42,11 @@ json no_curves()
     for (const PlantColumn& column : plant_columns())
         traits.push_back(
             {{"key", column.name}, {"name", column.words}, {"unit", column.drawn_unit}, {"scale", column.drawn_units}});
-    return {{"complete", false}, {"slots", 0}, {"traits", traits}, {"plants", json::array()}};
+    return {{"complete", false},
+            {"slots", 0},
+            {"traits", traits},
+            {"plants", json::array()},
+            {"gaps", json::array()}};
 }
 
 json curves_json(const BoardTraits& board, const BoardGrowth& growth)
@@ -55,6 +59,11 @@ json curves_json(const BoardTraits& board, const BoardGrowth& growth)
             series[one.column->name] = series_json(board, plant.life, one, growth.days);
         told["plants"].push_back({{"name", plant.life.name}, {"series", series}});
     }
+    for (const SeriesGap& gap : growth.gaps)
+        told["gaps"].push_back({{"from_s", static_cast<double>(gap.from_us) / kSecond},
+                                {"to_s", static_cast<double>(gap.to_us) / kSecond},
+                                {"slots", gap.slots},
+                                {"reason", gap.reason}});
     return told;
 }
 

@@ -1,5 +1,6 @@
 // dicot view: the archive as a page.
 #include "../commands.h"
+#include "../pull/archive_folder.h"
 #include "../stop_request.h"
 #include "export_site.h"
 #include "view_site.h"
@@ -29,7 +30,8 @@ void open_browser(std::string url)
 Status run(const ViewWords& words)
 {
     const StopRequest stop;
-    const std::unique_ptr<ViewSite> site = TRY(ViewSite::open(words.path, words.last));
+    const std::string path = TRY(archive_folder(words.path));
+    const std::unique_ptr<ViewSite> site = TRY(ViewSite::open(path, words.last));
     if (!words.export_folder.empty()) {
         TRY(export_site(*site, words.export_folder));
         std::printf("%s/index.html\n", words.export_folder.c_str());

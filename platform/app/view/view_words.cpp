@@ -10,7 +10,8 @@ void add_view_words(CLI::App& program, Command& chosen, const std::function<Stat
     CLI::App* command = program.add_subcommand(
         "view", "Clouds, leaves, traits and growth on a page in the browser, on this computer alone");
     auto words = std::make_shared<ViewWords>();
-    command->add_option("ARCHIVE", words->path, "an archive, a store, or one cloud file")->required();
+    command->add_option("ARCHIVE", words->path,
+                        "an archive, a store, or one cloud file (default: dicot-clouds in your home)");
     command->add_option("--port", words->port, "of 127.0.0.1 (default: any that is free)")
         ->check(CLI::Range(0, kMostPort))
         ->type_name("N");

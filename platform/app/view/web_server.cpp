@@ -5,6 +5,7 @@
 
 #include <httplib.h>
 
+#include <atomic>
 #include <chrono>
 #include <string>
 #include <sys/socket.h>
@@ -15,6 +16,7 @@ namespace {
 
 constexpr const char* kHere = "127.0.0.1";
 constexpr std::size_t kThreads = 4;
+constexpr auto kSoon = std::chrono::milliseconds(1);
 constexpr auto kLook = std::chrono::milliseconds(50);
 
 bool is_this_computer(const std::string& host)
@@ -80,12 +82,21 @@ Status serve(ViewSite& site, int port, FunctionRef<void(int port)> ready)
     if (bound < 0)
         return failure(Fault::kUnavailable, "port %d of %s is taken: give another one with --port, or 0 for any", port,
                        kHere);
-    std::thread listener([&server] { (void)server.listen_after_bind(); });
+    std::atomic<bool> ended{false};
+    std::thread listener([&server, &ended] {
+        (void)server.listen_after_bind();
+        ended = true;
+    });
+    // stop() does nothing to a server that does not listen yet, and it would listen for ever.
+    while (!server.is_running() && !ended)
+        std::this_thread::sleep_for(kSoon);
     ready(bound);
-    while (!StopRequest::asked())
+    while (!StopRequest::asked() && !ended)
         std::this_thread::sleep_for(kLook);
     server.stop();
     listener.join();
+    if (!StopRequest::asked())
+        return failure(Fault::kOsError, "port %d of %s: the system took it away", bound, kHere);
     return {};
 }
 

@@ -1,10 +1,9 @@
-// A trait of each plant over time: samples with their uncertainty, outliers hollow, a smooth curve with its band, misses below.
-import { clockOf, dayOf, measured, timeOf } from "./format.js";
+// A trait of each plant over time: samples with their uncertainty, outliers hollow, a smooth curve with its band, gaps below.
+import { clockOf, counted, dayOf, measured, timeOf } from "./format.js";
 import { leafColour } from "./colours.js";
 
 const kHeight = 150;
 const kLeft = 56, kRight = 12, kTop = 8, kBottom = 30;
-const kMostGaps = 400;
 const kMostDots = 1500;
 const kDay = 86400; // s
 const kSvg = "http://www.w3.org/2000/svg";
@@ -45,13 +44,13 @@ function timeTicks(first, last, most) {
 
 const colourOf = (plant) => `rgb(${leafColour(plant + 1)})`;
 
-/// `curves`: curves.json; `misses`: time and reason of slots without a snapshot; `now`: time of the snapshot that is shown;
-/// `chosen(sequence)`: a person wants to see the snapshot of a sample.
-export function drawCurves(into, curves, key, misses, now, chosen) {
+/// `curves`: curves.json; `now`: time of the snapshot that is shown; `chosen(sequence)`: a person wants to see the snapshot of a
+/// sample.
+export function drawCurves(into, curves, key, now, chosen) {
     const width = Math.max(into.clientWidth, 200);
     const trait = curves.traits.find((one) => one.key === key);
     const series = curves.plants.map((plant) => plant.series[key]).filter(Boolean);
-    const times = series.flatMap((one) => one.time_s).concat(misses.map((miss) => miss.time)).filter((time) => time !== null);
+    const times = series.flatMap((one) => one.time_s).concat(curves.gaps.flatMap((gap) => [gap.from_s, gap.to_s])).filter((time) => time !== null);
     const values = series.flatMap((one) => one.value.concat(one.curve?.value ?? [])).filter((value) => value !== null);
     if (times.length === 0 || values.length === 0) {
         into.replaceChildren("Nothing was measured yet.");
@@ -72,20 +71,13 @@ export function drawCurves(into, curves, key, misses, now, chosen) {
     for (const time of timeTicks(first, last, Math.max(1, Math.floor(width / 130))))
         svg.append(shape("text", { x: x(time), y: kHeight - 4, "text-anchor": x(time) > width - 60 ? "end" : x(time) < 60 ? "start" : "middle" },
             last - first > kDay ? dayOf(time) : `${dayOf(time).slice(5)} ${clockOf(time)}`));
-    for (const miss of thinned(misses, x))
-        svg.append(shape("line", { class: "gap", x1: x(miss.time), x2: x(miss.time), y1: kHeight - kBottom + 2, y2: kHeight - kBottom + 8 },
-            `${timeOf(miss.time)}: ${miss.reason}`));
+    for (const { from_s: from, to_s: to, slots, reason } of curves.gaps)
+        svg.append(shape("rect", { class: "gap", x: x(from) - 1, width: x(to) - x(from) + 2, y: kHeight - kBottom + 3, height: 4 },
+            `${timeOf(from)} to ${timeOf(to)}, ${counted(slots, "slot")}: ${reason}`));
     curves.plants.forEach((plant, i) => plant.series[key] && drawPlant(svg, plant, plant.series[key], colourOf(i), x, y, trait, chosen));
     if (now !== null && now >= first && now <= last)
         svg.append(shape("line", { class: "now", x1: x(now), x2: x(now), y1: kTop, y2: kHeight - kBottom }));
     into.replaceChildren(svg);
-}
-
-/// One of those that would stand on the same pixel.
-function thinned(misses, x) {
-    const seen = new Set();
-    return misses.filter((miss) => miss.time !== null && !seen.has(Math.round(x(miss.time))) && seen.add(Math.round(x(miss.time))))
-        .slice(0, kMostGaps);
 }
 
 function drawPlant(svg, plant, series, colour, x, y, trait, chosen) {

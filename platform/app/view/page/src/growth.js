@@ -16,7 +16,6 @@ export class Growth {
         const asked = ++this.asked;
         this.curves = null;
         this.draw();
-        this.misses = null;
         for (;;) {
             let words = "";
             try {
@@ -55,10 +54,8 @@ export class Growth {
             byId("curves").replaceChildren();
             return;
         }
-        this.misses ??= Array.from({ length: timeline.count }, (_, i) => timeline.slot(i))
-            .filter((slot) => slot.state === "missed").map(({ time, reason }) => ({ time, reason }));
         const now = timeline.current < 0 ? null : timeline.slot(timeline.current).time;
-        this.paint(byId("curves"), curves, byId("trait").value, this.misses, now,
+        this.paint(byId("curves"), curves, byId("trait").value, now,
             (sequence) => this.chosen(timeline.slots.sequence.indexOf(sequence)));
     }
 }

@@ -15,6 +15,8 @@ const kModes = ["colour", "leaf", "height", "confidence"];
 // The camera's own frame, until a ground is known.
 const kNoPlace = { frame: { origin_mm: [0, 0, 0], right: [1, 0, 0], away: [0, 0, 1], up: [0, -1, 0], known: false }, grid: null };
 
+const kPauseMs = 100; // whoever holds an arrow key down does not want every snapshot measured
+
 const state = { board: 0, mode: "colour", plantsAlone: false, leaf: 0, seen: null, plants: null, work: 0, place: kNoPlace };
 let scene, measure;
 
@@ -115,10 +117,10 @@ async function show(index) {
     byId("legend").replaceChildren();
     measure?.turnOn(measure.on);
     growth.draw();
+    pictures.clear();
     const folder = `data/${state.board}/${slot.sequence}`;
     if (slot.state !== "done") {
         scene?.clear();
-        pictures.show("");
         const titles = {
             missed: "This slot was missed", pruned: "Its folder was deleted to make room", quarantine: "Its folder was damaged, and is in quarantine",
             lost: "Its folder was taken away",
@@ -128,7 +130,7 @@ async function show(index) {
             readJson(`${folder}/snapshot.json`).then((told) => current() && showRecord(byId("record"), told), () => {});
         return;
     }
-    pictures.show(folder);
+    pictures.show(0, `${folder}/left.jpg`);
     say("");
     const told = await outcome(readJson(`${folder}/snapshot.json`));
     if (!current())
@@ -148,6 +150,10 @@ async function show(index) {
         scene?.show(cloud.value, state.place.frame, state.place.grid, () => false, state.place !== kNoPlace);
         paint();
     }
+    await new Promise((resolve) => setTimeout(resolve, kPauseMs));
+    if (!current())
+        return;
+    pictures.show(1, `${folder}/disparity.png`);
     const plants = await outcome(Promise.all([readJson(`${folder}/plants.json`), readBytes(`${folder}/leaves.bin`)]));
     if (!current())
         return;

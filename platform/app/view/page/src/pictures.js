@@ -14,18 +14,18 @@ export class Pictures {
         }
     }
 
-    /// `folder`: of the snapshot's data; empty: no snapshot.
-    show(folder) {
+    /// Before a snapshot is shown.
+    clear() {
         this.grid = this.index = this.cloud = null;
         this.mark(-1);
-        this.figures.forEach((figure, i) => {
-            const image = figure.querySelector("img");
+        for (const figure of this.figures) {
+            figure.querySelector("img").removeAttribute("src");
             figure.classList.remove("missing");
-            if (folder)
-                image.src = `${folder}/${["left.jpg", "disparity.png"][i]}`;
-            else
-                image.removeAttribute("src");
-        });
+        }
+    }
+
+    show(i, path) {
+        this.figures[i].querySelector("img").src = path;
     }
 
     /// Which pixel saw which point. `grid`: width, height, focal_px, cx_px, cy_px.

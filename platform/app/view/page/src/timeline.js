@@ -15,7 +15,8 @@ export class Timeline {
         list.append(this.inner);
         list.addEventListener("scroll", () => this.fill(), { passive: true });
         new ResizeObserver(() => this.fill()).observe(list);
-        range.addEventListener("input", () => chosen(Number(range.value)));
+        range.addEventListener("input", () => this.select(Number(range.value)));
+        range.addEventListener("change", () => chosen(Number(range.value)));
     }
 
     /// `slots`: data/BOARD/slots.json.
