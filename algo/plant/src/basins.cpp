@@ -33,7 +33,7 @@ std::span<std::int32_t> deepest_first(const Surface& surface, Arena& arena)
 
 Pieces cut_at_necks(const Surface& surface, Arena& arena)
 {
-    constexpr int kNeckNumerator = 1, kNeckDenominator = 2;
+    constexpr int kNeckNumerator = 6, kNeckDenominator = 10;
     Pieces pieces;
     pieces.piece = arena.take<std::int32_t>(surface.cells());
     const std::size_t mark = arena.used();
@@ -76,7 +76,7 @@ Pieces cut_at_necks(const Surface& surface, Arena& arena)
                 home = near[k];
         pieces.piece[i] = home;
         for (std::size_t k = 0; k < count; ++k)
-            if (near[k] != home && kNeckDenominator * (inside(here) + 1) >= kNeckNumerator * inside(near[k]))
+            if (near[k] != home && kNeckDenominator * (inside(here) + 2) >= kNeckNumerator * inside(near[k]))
                 basins.hang(near[k], home);
     }
 

@@ -48,7 +48,7 @@ bool hang_together(const CloudPoint& a, const CloudPoint& b, double focal_px)
 /// 150.
 void find_green(const PlantView& view, const GroundFrame& ground, std::span<std::uint8_t> green, Arena& arena)
 {
-    constexpr int kSpeck = 60, kGuessed = 64;
+    constexpr int kSpeck = 60, kGuessed = 56;
     const std::size_t mark = arena.used();
     const std::span<const CloudPoint> points = view.cloud.points;
     const std::span<std::int32_t> parent = arena.take<std::int32_t>(points.size());
@@ -88,6 +88,31 @@ void find_green(const PlantView& view, const GroundFrame& ground, std::span<std:
         green[i] = green[i] && size[patch] >= kSpeck && (!known || confidence[patch] >= kGuessed * size[patch]);
     }
     arena.rewind(mark);
+}
+
+/// Highlights and spots are not green: a point that hangs together with five green ones of its eight neighbours is
+/// taken in. Straight borders do not grow by it.
+void close_spots(const PlantView& view, std::span<std::uint8_t> green)
+{
+    constexpr int kRounds = 6, kEnough = 6;
+    for (int round = 0; round < kRounds; ++round)
+        for (int y = 1; y + 1 < view.point.height; ++y)
+            for (int x = 1; x + 1 < view.point.width; ++x) {
+                const std::int32_t here = view.point.at(x, y);
+                if (here == PlantView::kNoPoint || green[static_cast<std::size_t>(here)])
+                    continue;
+                int count = 0;
+                for (int v = -1; v <= 1; ++v)
+                    for (int u = -1; u <= 1; ++u) {
+                        const std::int32_t near = view.point.at(x + u, y + v);
+                        if (near != PlantView::kNoPoint && green[static_cast<std::size_t>(near)] &&
+                            hang_together(view.cloud.points[static_cast<std::size_t>(here)],
+                                          view.cloud.points[static_cast<std::size_t>(near)], view.focal_px))
+                            ++count;
+                    }
+                if (count >= kEnough)
+                    green[static_cast<std::size_t>(here)] = 1;
+            }
 }
 
 /// The canopy from above, in square cells.
@@ -191,6 +216,7 @@ Canopy find_canopy(const PlantView& view, const GroundFrame& ground, Arena& aren
     if (arena.overrun())
         return canopy;
     find_green(view, ground, canopy.plant, arena);
+    close_spots(view, canopy.plant);
     const TopView top = top_view(view, ground, canopy.plant);
     const std::span<std::int32_t> held = arena.take<std::int32_t>(top.cells());
     const std::span<std::int32_t> parent = arena.take<std::int32_t>(top.cells());

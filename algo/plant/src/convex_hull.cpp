@@ -1,4 +1,4 @@
-#include "convex_hull.h"
+#include "dicot/plant/convex_hull.h"
 
 #include <algorithm>
 #include <array>

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace dicot {
 namespace {
@@ -97,13 +98,15 @@ public:
     /// `side`: -1 towards the least `along`, +1 towards the greatest.
     MidribEnd end(float side) const
     {
-        const double strip = std::max(0.04 * widest_, shape_.across_spacing_mm);
+        const double strip = std::max(0.02 * widest_, shape_.across_spacing_mm);
         std::array<double, kMostSections> reach{};
         std::array<bool, kMostSections> crossed{};
-        const Place* outermost = nullptr;
+        std::array<const Place*, 3> outermost{}; // the last of them: two may be strays
         for (const Place& place : places_) {
-            if (!outermost || side * place.along > side * outermost->along)
-                outermost = &place;
+            const Place* candidate = &place;
+            for (const Place*& held : outermost)
+                if (candidate && (!held || side * candidate->along > side * held->along))
+                    std::swap(held, candidate);
             if (std::fabs(place.across - midrib_(place.along)) > strip)
                 continue;
             const auto i = static_cast<std::size_t>(sections_.of(place.along));
@@ -120,7 +123,8 @@ public:
             else if (last >= 0 && std::abs(i - last) > hole)
                 break;
         }
-        const MidribEnd tip{outermost->along, outermost->across, false};
+        const double tip_along = outermost.back()->along;
+        const MidribEnd tip{tip_along, middle_at(tip_along), false};
         if (last < 0)
             return tip;
         const double ends = reach[static_cast<std::size_t>(last)];
@@ -208,7 +212,9 @@ public:
             const double chord =
                 double(sorted[at - 1].across) - double(sorted[first].across) + shape_.across_spacing_mm;
             const double slope = profile.slope + 2 * profile.bend * sections_.along(i);
-            area += covered * across_mm(i) / chord * sections_.step * std::sqrt(1 + slope * slope);
+            const bool outer = i == 0 || i == sections_.count - 1; // half a cell lies beyond the centres
+            const double step_mm = sections_.step + (outer ? shape_.along_spacing_mm / 2 : 0);
+            area += covered * across_mm(i) / chord * step_mm * std::sqrt(1 + slope * slope);
         }
         return area;
     }
@@ -231,6 +237,19 @@ private:
     static double extended(const Sample& near, const Sample& far, double at)
     {
         return near.value + (near.value - far.value) / (near.at - far.at) * (at - near.at);
+    }
+
+    /// Across, of the cells of an end.
+    double middle_at(double along) const
+    {
+        double sum = 0;
+        int count = 0;
+        for (const Place& place : places_)
+            if (std::fabs(place.along - along) <= 1.5 * shape_.along_spacing_mm) {
+                sum += place.across;
+                ++count;
+            }
+        return sum / count;
     }
 
     bool two_lobes_beyond(double ends, double side) const
@@ -304,27 +323,82 @@ void straighten(LeafFrame& frame, const Parabola& midrib)
     frame.along = along;
 }
 
-} // namespace
-
-LeafShape leaf_shape(std::span<const SurfaceCell> cells, double focal_px, std::span<Place> places)
+/// Principal axes, turned until the middles of the sections run along the first.
+LeafFrame frame_of(std::span<const SurfaceCell> cells, double focal_px, std::span<Place> places)
 {
-    LeafShape shape;
     Moments moments;
     for (const SurfaceCell& cell : cells)
         moments.add(where(cell), cell.area_mm2);
     const PrincipalAxes axes = principal_axes(moments);
-    shape.frame = {moments.mean(), axes.axis[0], axes.axis[1], cross(axes.axis[0], axes.axis[1])};
-    const auto measure_spacing = [&] {
-        shape.along_spacing_mm = spacing_mm(shape.frame.centre, shape.frame.along, focal_px);
-        shape.across_spacing_mm = spacing_mm(shape.frame.centre, shape.frame.across, focal_px);
-    };
+    LeafFrame frame{moments.mean(), axes.axis[0], axes.axis[1], cross(axes.axis[0], axes.axis[1])};
     for (int turn = 0; turn < 2; ++turn) {
-        measure_spacing();
-        lay_out(shape.frame, cells, places);
-        straighten(shape.frame, midrib_of(sections_of(places, shape.along_spacing_mm)));
+        lay_out(frame, cells, places);
+        straighten(frame, midrib_of(sections_of(places, spacing_mm(frame.centre, frame.along, focal_px))));
     }
-    measure_spacing();
-    lay_out(shape.frame, cells, places);
+    lay_out(frame, cells, places);
+    return frame;
+}
+
+/// From the widest section outwards to where the blade has run out.
+struct BladeRange
+{
+    double from, to;
+
+    bool holds(const Place& place) const { return place.along >= from && place.along <= to; }
+};
+
+BladeRange blade_of(const Sections& sections)
+{
+    // Narrower than this is a petiole, or the last of the tip; the tip goes on as it tapers from kTapering to there.
+    constexpr double kNarrow = 0.15, kTapering = 0.35;
+    int widest = 0;
+    for (int i = 1; i < sections.count; ++i)
+        if (sections.all[static_cast<std::size_t>(i)].width() > sections.all[static_cast<std::size_t>(widest)].width())
+            widest = i;
+    const double most = sections.all[static_cast<std::size_t>(widest)].width();
+    const auto reach = [&](int side) {
+        int tapering = widest;
+        for (int i = widest; i >= 0 && i < sections.count; i += side) {
+            const Section& section = sections.all[static_cast<std::size_t>(i)];
+            if (section.cells == 0)
+                continue;
+            if (section.width() >= kTapering * most)
+                tapering = i;
+            if (section.width() < kNarrow * most) {
+                const double taper = std::abs(i - tapering) * kNarrow / (kTapering - kNarrow);
+                return sections.along(i) + side * (taper - 0.5) * sections.step;
+            }
+        }
+        constexpr double kEnd_mm = 1e9;
+        return side * kEnd_mm;
+    };
+    return {reach(-1), reach(+1)};
+}
+
+} // namespace
+
+LeafShape leaf_shape(std::span<SurfaceCell> cells, double focal_px, std::span<Place> places)
+{
+    LeafShape shape;
+    LeafFrame& frame = shape.frame;
+    frame = frame_of(cells, focal_px, places);
+    for (int pass = 0; pass < 2; ++pass) { // a petiole turns the frame
+        const BladeRange blade = blade_of(sections_of(places, spacing_mm(frame.centre, frame.along, focal_px)));
+        const auto rest = std::partition(
+            cells.begin(), cells.end(), [&](const SurfaceCell& cell) { return blade.holds(frame.place(where(cell))); });
+        const auto count = static_cast<std::size_t>(rest - cells.begin());
+        // A petiole is a small part of what is seen of a leaf; a large one is another leaf.
+        constexpr double kPetioleShare = 0.35;
+        if (count == cells.size() || count < kFewestCells ||
+            static_cast<double>(count) < (1 - kPetioleShare) * static_cast<double>(cells.size()))
+            break;
+        cells = cells.first(count);
+        places = places.first(count);
+        frame = frame_of(cells, focal_px, places);
+    }
+    shape.blade_cells = cells.size();
+    shape.along_spacing_mm = spacing_mm(frame.centre, frame.along, focal_px);
+    shape.across_spacing_mm = spacing_mm(frame.centre, frame.across, focal_px);
 
     const Measure measure(shape, places);
     const MidribEnd ends[2] = {measure.end(-1), measure.end(+1)};
@@ -339,8 +413,7 @@ LeafShape leaf_shape(std::span<const SurfaceCell> cells, double focal_px, std::s
     // Of a parabola through n equal samples over L: sd of its bend = sqrt(180 / n) sd / L^2.
     shape.curvature_sd_per_mm = 2 * std::sqrt(180.0 / 16) * noise_mm / (shape.length_mm * shape.length_mm);
     for (std::size_t i = 0; i < 2; ++i)
-        shape.ends[i] = {shape.frame.point(ends[i].along, ends[i].across, measure.off_at(ends[i].along)),
-                         ends[i].sinus};
+        shape.ends[i] = {frame.point(ends[i].along, ends[i].across, measure.off_at(ends[i].along)), ends[i].sinus};
     return shape;
 }
 

@@ -31,6 +31,7 @@ struct LeafFrame
 struct LeafShape
 {
     LeafFrame frame;
+    std::size_t blade_cells = 0;
     double area_mm2 = 0; ///< on the surface, within the outline
     double length_mm = 0, width_mm = 0;
     double curvature_per_mm = 0, curvature_sd_per_mm = 0; ///< positive: hollow on the side that `normal` points to
@@ -46,13 +47,14 @@ struct LeafShape
 /// Fewer cells than this have no shape.
 inline constexpr std::size_t kFewestCells = 24;
 
-/// Measures at least kFewestCells cells. `places`: as many, scratch.
+/// Measures at least kFewestCells cells. `places`: as many, scratch. Those of the blade are put first: what goes on
+/// where the blade has become narrow is petiole.
 ///
 /// The frame is that of the principal axes of the surface, turned until the middles of its sections run along it. The
 /// midrib is the parabola through these middles: over it, the surface's profile is as long as the leaf. Length ends
 /// where the midrib leaves the leaf: between two lobes at the petiole, else at the outermost cell. Width is that of
 /// the widest section, on the surface. Both have half a cell added at each end, which is what lies beyond the centres.
 /// A blade bent by more than a right angle is measured too short: its sections overlap.
-LeafShape leaf_shape(std::span<const SurfaceCell> cells, double focal_px, std::span<Place> places);
+LeafShape leaf_shape(std::span<SurfaceCell> cells, double focal_px, std::span<Place> places);
 
 } // namespace dicot

@@ -149,6 +149,7 @@ LeafSurfaces leaf_surfaces(const PlantView& view, const Leaves& leaves, Arena& a
     LeafSurfaces surfaces;
     surfaces.first = arena.take<std::int32_t>(count + 1);
     surfaces.gaps = arena.take<LeafGaps>(count);
+    surfaces.blade = arena.take<std::int32_t>(count);
     surfaces.cells = arena.take<SurfaceCell>(view.cloud.points.size());
     if (arena.overrun() || arena.measuring())
         return {};
@@ -174,7 +175,8 @@ LeafSurfaces leaf_surfaces(const PlantView& view, const Leaves& leaves, Arena& a
         surfaces.first[leaf] = surfaces.first[leaf - 1];
     surfaces.first[0] = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const auto cells = static_cast<float>(std::max(1, surfaces.first[i + 1] - surfaces.first[i]));
+        surfaces.blade[i] = surfaces.first[i + 1] - surfaces.first[i];
+        const auto cells = static_cast<float>(std::max(1, surfaces.blade[i]));
         surfaces.gaps[i].noise_mm = std::sqrt(surfaces.gaps[i].noise_mm / cells);
     }
     find_gaps(view, smoother, surfaces.gaps);

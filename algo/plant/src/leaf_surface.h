@@ -33,18 +33,23 @@ struct LeafSurfaces
     std::span<SurfaceCell> cells;
     std::span<std::int32_t> first; ///< [leaf_count + 1]
     std::span<LeafGaps> gaps;      ///< [leaf_count]
+    std::span<std::int32_t> blade; ///< [leaf_count]: so many of its cells, the first, are blade; the others petiole
 
-    std::span<const SurfaceCell> of(int leaf) const
+    std::span<SurfaceCell> of(int leaf) const
     {
         const auto at = static_cast<std::size_t>(leaf);
         const auto from = static_cast<std::size_t>(first[at - 1]), to = static_cast<std::size_t>(first[at]);
         return cells.subspan(from, to - from);
     }
+    std::span<SurfaceCell> blade_of(int leaf) const
+    {
+        return of(leaf).first(static_cast<std::size_t>(blade[static_cast<std::size_t>(leaf - 1)]));
+    }
 };
 
 /// Inverse depth is affine in the picture for a plane (1/z = a + b u + c v): fitted to the leaf's points within
 /// kSmoothing_mm of each, by least squares, it gives the cell's place and, by its gradient, its area.
-/// Empty spans where `arena` is too small.
+/// All cells are blade until somebody tells them apart. Empty spans where `arena` is too small.
 LeafSurfaces leaf_surfaces(const PlantView& view, const Leaves& leaves, Arena& arena);
 
 } // namespace dicot

@@ -2,55 +2,103 @@
 
 #include "basins.h"
 #include "dicot/plant/canopy.h"
+#include "merge.h"
 #include "surface.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dicot {
+namespace {
+
+constexpr int kLeastPoints = 120; ///< of a leaf
+
+/// A piece of the surface, before it has a leaf's number.
+struct Blade
+{
+    std::int32_t points = 0;
+    std::int64_t columns = 0; ///< their sum
+    std::uint8_t plant = 0;
+    std::uint16_t leaf = Leaves::kNone;
+
+    double column() const { return static_cast<double>(columns) / points; }
+};
+
+void count_blades(const Surface& surface, const Pieces& pieces, std::span<Blade> blades)
+{
+    std::ranges::fill(blades, Blade{});
+    for (std::size_t i = 0; i < surface.cells(); ++i) {
+        if (surface.cell[i] != Surface::kPoint || pieces.piece[i] == 0)
+            continue;
+        Blade& blade = blades[static_cast<std::size_t>(pieces.piece[i]) - 1];
+        ++blade.points;
+        blade.columns += static_cast<std::int64_t>(i % static_cast<std::size_t>(surface.width));
+        blade.plant = surface.plant[i];
+    }
+}
+
+/// Plant by plant, from left to right.
+void number_leaves(std::span<Blade> blades, Leaves& leaves)
+{
+    const auto before = [](const Blade& a, const Blade& b) {
+        return a.plant != b.plant ? a.plant < b.plant : a.column() < b.column();
+    };
+    for (;;) {
+        Blade* next = nullptr;
+        for (Blade& blade : blades)
+            if (blade.points >= kLeastPoints && blade.leaf == Leaves::kNone &&
+                (next == nullptr || before(blade, *next)))
+                next = &blade;
+        if (next == nullptr)
+            break;
+        leaves.plant_of_leaf[static_cast<std::size_t>(leaves.leaf_count)] = next->plant;
+        next->leaf = static_cast<std::uint16_t>(++leaves.leaf_count);
+    }
+    leaves.plant_of_leaf = leaves.plant_of_leaf.first(static_cast<std::size_t>(leaves.leaf_count));
+}
+
+} // namespace
 
 std::size_t segment_leaves_bytes(const PlantView& view)
 {
+    // Lists of the points, layers of the cells, and what is of one size for any cloud.
+    constexpr std::size_t kPointBytes = 16, kCellBytes = 22, kAnyBytes = std::size_t{8} << 20;
+    constexpr int kFrame = 2 * Surface::kMargin;
     const std::size_t cells =
-        (static_cast<std::size_t>(view.point.width) + 4) * (static_cast<std::size_t>(view.point.height) + 4);
-    return 32 * cells + 32 * view.cloud.points.size() + (std::size_t{8} << 20);
+        (static_cast<std::size_t>(view.point.width) + kFrame) * (static_cast<std::size_t>(view.point.height) + kFrame);
+    return kPointBytes * view.cloud.points.size() + kCellBytes * cells + kAnyBytes;
 }
 
 Result<Leaves> segment_leaves(const PlantView& view, std::span<const PlantBox> boxes, Arena& arena)
 {
+    const auto too_little = [] { return failure(Fault::kConfig, "too little memory to look for leaves"); };
     Leaves leaves;
     leaves.leaf = arena.take<std::uint16_t>(view.cloud.points.size());
-    leaves.plant_of_leaf = arena.take<std::uint8_t>(UINT16_MAX);
+    leaves.plant_of_leaf = arena.take<std::uint8_t>(kMostPieces);
     leaves.ground = find_ground(view, arena);
     Canopy canopy = find_canopy(view, leaves.ground, arena);
     stand_on_soil(view, canopy, leaves.ground, arena);
+    if (arena.overrun())
+        return too_little();
     if (!boxes.empty())
         put_in_boxes(view, leaves.ground, boxes, canopy);
     leaves.plant = canopy.plant;
     leaves.plant_count = canopy.plant_count;
-    if (arena.overrun())
-        return failure(Fault::kConfig, "too little memory to look for leaves");
     std::ranges::fill(leaves.leaf, Leaves::kNone);
 
     const std::size_t mark = arena.used();
     const Surface surface = surface_of(view, canopy, arena);
-    const Pieces pieces = cut_at_necks(surface, arena);
-    const std::span<std::int32_t> size = arena.take<std::int32_t>(static_cast<std::size_t>(pieces.count) + 1);
+    Pieces pieces = cut_at_necks(surface, arena);
+    merge_pieces(surface, pieces, arena);
+    const std::span<Blade> blades = arena.take<Blade>(static_cast<std::size_t>(pieces.count));
     if (arena.overrun())
-        return failure(Fault::kConfig, "too little memory to look for leaves");
-    std::ranges::fill(size, 0);
+        return too_little();
+    count_blades(surface, pieces, blades);
+    number_leaves(blades, leaves);
     for (std::size_t i = 0; i < surface.cells(); ++i)
-        if (surface.cell[i] == Surface::kPoint)
-            ++size[static_cast<std::size_t>(pieces.piece[i])];
-    for (std::int32_t& s : size)
-        s = s >= 120 ? ++leaves.leaf_count : 0;
-    for (std::size_t i = 0; i < surface.cells(); ++i)
-        if (surface.cell[i] == Surface::kPoint) {
-            const auto p = static_cast<std::size_t>(surface.point(view, i));
-            leaves.leaf[p] = static_cast<std::uint16_t>(size[static_cast<std::size_t>(pieces.piece[i])]);
-            if (leaves.leaf[p])
-                leaves.plant_of_leaf[leaves.leaf[p] - 1u] = leaves.plant[p];
-        }
-    leaves.plant_of_leaf = leaves.plant_of_leaf.first(static_cast<std::size_t>(leaves.leaf_count));
+        if (surface.cell[i] == Surface::kPoint && pieces.piece[i] != 0)
+            leaves.leaf[static_cast<std::size_t>(surface.point(view, i))] =
+                blades[static_cast<std::size_t>(pieces.piece[i]) - 1].leaf;
     arena.rewind(mark);
     return leaves;
 }

@@ -1,6 +1,7 @@
 #include "plant_shape.h"
 
-#include "convex_hull.h"
+#include "dicot/plant/convex_hull.h"
+#include "greenness.h"
 #include "root_of_squares.h"
 #include "vec3.h"
 
@@ -15,6 +16,9 @@ namespace {
 constexpr double kRaster_mm = 4;
 /// A plant that spans more has larger cells.
 constexpr int kMostAcross = 400;
+
+/// One leaf's cells of the picture may fall into a cell of the raster by a quarter more than their share.
+constexpr double kTwice = 1.25;
 
 struct RasterCell
 {
@@ -114,25 +118,27 @@ void measure_plant(const PlantView& view, const Leaves& leaves, const LeafSurfac
         for (std::size_t i = 0; i < view.cloud.points.size(); ++i)
             if (leaves.plant[i] == plant.plant) {
                 const CloudPoint& p = view.cloud.points[i];
-                visit(ground.place({p.x * step_mm, p.y * step_mm, p.z * step_mm}), p);
+                visit(ground.place({p.x * step_mm, p.y * step_mm, p.z * step_mm}), i);
             }
     };
-    std::size_t count = 0;
+    std::size_t on_leaves = 0;
     Reach reach;
     double green = 0;
-    each_point([&](Vec3 at, const CloudPoint& point) {
-        memory.heights[count++] = static_cast<float>(at.z);
+    each_point([&](Vec3 at, std::size_t i) {
+        ++plant.points;
+        if (leaves.leaf[i] != Leaves::kNone) // others may be strays
+            memory.heights[on_leaves++] = static_cast<float>(at.z);
         reach.take_in(at);
-        const int r = point.colour.r, g = point.colour.g, b = point.colour.b;
-        green += r + g + b > 0 ? double(2 * g - r - b) / (r + g + b) : 0;
+        green += greenness(view.cloud.points[i].colour);
     });
-    plant.points = static_cast<std::int64_t>(count);
-    if (count == 0) {
+    if (plant.points == 0) {
         arena.rewind(mark);
         return;
     }
-    plant.greenness = green / double(count);
-    measure_heights(memory.heights.first(count), leaves.ground.height_sd_mm, plant);
+    plant.greenness = green / double(plant.points);
+    if (on_leaves == 0)
+        each_point([&](Vec3 at, std::size_t) { memory.heights[on_leaves++] = static_cast<float>(at.z); });
+    measure_heights(memory.heights.first(on_leaves), leaves.ground.height_sd_mm, plant);
 
     const double span = std::max(reach.most_x - reach.least_x, reach.most_y - reach.least_y);
     const double cell_mm = std::max(kRaster_mm, span / (kMostAcross - 1));
@@ -145,7 +151,7 @@ void measure_plant(const PlantView& view, const Leaves& leaves, const LeafSurfac
         const int row = std::clamp(static_cast<int>((at.y - reach.least_y) / cell_mm), 0, height - 1);
         return raster[static_cast<std::size_t>(row * width + column)];
     };
-    each_point([&](Vec3 at, const CloudPoint&) {
+    each_point([&](Vec3 at, std::size_t) {
         RasterCell& cell = cell_at(at);
         const auto h = static_cast<float>(at.z), x = static_cast<float>(at.x), y = static_cast<float>(at.y);
         if (h < cell.lowest_mm) {
@@ -161,7 +167,7 @@ void measure_plant(const PlantView& view, const Leaves& leaves, const LeafSurfac
     });
     for (int leaf = 1; leaf <= leaves.leaf_count; ++leaf)
         if (leaves.plant_of_leaf[static_cast<std::size_t>(leaf - 1)] == plant.plant)
-            for (const SurfaceCell& cell : surfaces.of(leaf))
+            for (const SurfaceCell& cell : surfaces.blade_of(leaf))
                 cell_at(ground.place({cell.x, cell.y, cell.z})).covered_mm2 += cell.from_above_mm2;
 
     double projected = 0;
@@ -174,7 +180,8 @@ void measure_plant(const PlantView& view, const Leaves& leaves, const LeafSurfac
             std::clamp(std::floor(mm / grid_mm + 0.5), -double(kHullReach), double(kHullReach)));
     };
     for (const RasterCell& cell : raster) {
-        projected += std::min<double>(cell.covered_mm2, cell_mm * cell_mm);
+        const double whole = cell_mm * cell_mm;
+        projected += cell.covered_mm2 > kTwice * whole ? whole : cell.covered_mm2;
         if (cell.highest_mm < cell.lowest_mm)
             continue;
         for (std::size_t i = 0; i < 2; ++i)

@@ -9,9 +9,9 @@ namespace dicot {
 
 /// Points of a plant, mm above and along the ground. Scratch from `arena`, in passing.
 ///
-/// Projected area: on a raster of kRaster_mm each cell holds as much as the surfaces above it cover, and no more than
-/// itself, so that neither a border nor leaves above each other count twice. Hull: of the highest and lowest point of
-/// each cell, to the grid's step; exact for them.
+/// Projected area: on a raster of 4 mm each cell holds as much as the surfaces above it cover, and where that is
+/// clearly more than itself, itself: neither a border nor leaves above each other count twice. Hull: of the highest and
+/// lowest point of each cell, to the grid's step; exact for them.
 void measure_plant(const PlantView& view, const Leaves& leaves, const LeafSurfaces& surfaces, Arena& arena,
                    PlantTraits& plant);
 

@@ -13,6 +13,8 @@ namespace {
 /// pixel; or where it is steeper than any blade that a camera sees.
 constexpr float kJumpPx = 4, kSteepPx = 12;
 constexpr int kBridgePx = 5;
+constexpr float kOffsetPx = 4;
+constexpr int kRun = 5, kLeastRun = 3;
 
 /// Step in depth from one cell to another, in widths of a pixel.
 float step_px(const Surface& surface, float from, float to)
@@ -51,6 +53,7 @@ void fill_cells(const Surface& surface, const PlantView& view, const Canopy& can
             continue;
         const auto point = static_cast<std::size_t>(index);
         surface.cell[i] = canopy.plant[point] == 0 ? Surface::kOther : Surface::kPoint;
+        surface.plant[i] = canopy.plant[point];
         surface.inverse[i] = static_cast<float>(view.focal_px / point_mm(view, point).z);
     }
 }
@@ -114,13 +117,16 @@ void bridge(const Surface& surface, std::span<float> inverse, std::span<std::uin
             if (back == 0 || forth == 0 || back + forth >= shortest)
                 continue;
             const int stride = dy * surface.width + dx;
-            const float a = surface.inverse[i - static_cast<std::size_t>(back * stride)];
-            const float b = surface.inverse[i + static_cast<std::size_t>(forth * stride)];
-            if (step_px(surface, a, b) > kJumpPx / 2 + static_cast<float>(back + forth))
+            const std::size_t from = i - static_cast<std::size_t>(back * stride);
+            const std::size_t to = i + static_cast<std::size_t>(forth * stride);
+            const float a = surface.inverse[from], b = surface.inverse[to];
+            if (surface.plant[from] != surface.plant[to] ||
+                step_px(surface, a, b) > kJumpPx / 2 + static_cast<float>(back + forth))
                 continue;
             shortest = back + forth;
             inverse[i] = (a * static_cast<float>(forth) + b * static_cast<float>(back)) / static_cast<float>(shortest);
             cell[i] = Surface::kBridge;
+            surface.plant[i] = surface.plant[from];
         }
     });
     std::ranges::copy(inverse, surface.inverse.begin());
@@ -131,7 +137,7 @@ void bridge(const Surface& surface, std::span<float> inverse, std::span<std::uin
 bool is_torn(const Surface& surface, std::size_t i, std::size_t stride)
 {
     const std::size_t j = i + stride;
-    if (!surface.holds(j))
+    if (!surface.holds(j) || surface.plant[i] != surface.plant[j])
         return true;
     if (surface.cell[i] == Surface::kBridge || surface.cell[j] == Surface::kBridge)
         return false;
@@ -174,6 +180,67 @@ void tear(const Surface& surface)
     });
 }
 
+/// How far apart two sides are halfway between cell i and the next, in widths of a pixel: straight lines through five
+/// cells on either side, the nearest left out, which the matcher mixes from both surfaces. -1: not enough surface.
+float offset_px(const Surface& surface, std::size_t i, std::ptrdiff_t stride, std::uint8_t forth, std::uint8_t back)
+{
+    const auto line = [&](std::size_t from, std::ptrdiff_t step, std::uint8_t side) {
+        float sum = 0, moment = 0;
+        int count = 0;
+        std::size_t at = from;
+        for (; count < kRun; ++count) {
+            if ((surface.torn[at] & side) != 0)
+                break;
+            at += static_cast<std::size_t>(step);
+            sum += surface.inverse[at];
+            moment += static_cast<float>(count) * surface.inverse[at];
+        }
+        if (count < kLeastRun)
+            return -1.0F;
+        const auto n = static_cast<float>(count);
+        const float middle = (n - 1) / 2, slope = (moment - middle * sum) * 12 / (n * (n * n - 1));
+        return sum / n - slope * (middle + 1.5F);
+    };
+    const float a = line(i, -stride, back), b = line(i + static_cast<std::size_t>(stride), stride, forth);
+    return a <= 0 || b <= 0 ? -1 : step_px(surface, a, b);
+}
+
+void tear_softly(const Surface& surface, std::span<float> offsets, std::span<std::uint8_t> torn)
+{
+    const auto below = static_cast<std::ptrdiff_t>(surface.width);
+    std::ranges::copy(surface.torn, torn.begin());
+    const auto along = [&](std::ptrdiff_t stride, std::uint8_t forth, std::uint8_t back) {
+        std::ranges::fill(offsets, -1.0F);
+        for_each_inner(surface, [&](int, int, std::size_t i) {
+            if (surface.holds(i) && (surface.torn[i] & forth) == 0)
+                offsets[i] = offset_px(surface, i, stride, forth, back);
+        });
+        for_each_inner(surface, [&](int, int, std::size_t i) {
+            if (!(offsets[i] > kOffsetPx))
+                return;
+            std::size_t j = i, k = i;
+            for (int way = 0; way < 3; ++way) {
+                if ((surface.torn[j] & back) == 0) {
+                    j -= static_cast<std::size_t>(stride);
+                    if (offsets[j] > offsets[i])
+                        return;
+                }
+                if ((surface.torn[k] & forth) == 0) {
+                    k += static_cast<std::size_t>(stride);
+                    if (offsets[k] >= offsets[i])
+                        return;
+                }
+            }
+            torn[i] = static_cast<std::uint8_t>(torn[i] | forth);
+            std::uint8_t& next = torn[i + static_cast<std::size_t>(stride)];
+            next = static_cast<std::uint8_t>(next | back);
+        });
+    };
+    along(1, Surface::kRight, Surface::kLeft);
+    along(below, Surface::kBelow, Surface::kAbove);
+    std::ranges::copy(torn, surface.torn.begin());
+}
+
 void measure_inside(const Surface& surface)
 {
     constexpr int kAtTear = 3, kStraight = 5, kAcross = 7;
@@ -211,6 +278,7 @@ Surface surface_of(const PlantView& view, const Canopy& canopy, Arena& arena)
     surface.focal_px = view.focal_px;
     frame_cells(surface, view, canopy);
     surface.cell = arena.take<std::uint8_t>(surface.cells());
+    surface.plant = arena.take<std::uint8_t>(surface.cells());
     surface.inverse = arena.take<float>(surface.cells());
     surface.torn = arena.take<std::uint8_t>(surface.cells());
     surface.inside_px5 = arena.take<std::int16_t>(surface.cells());
@@ -222,8 +290,9 @@ Surface surface_of(const PlantView& view, const Canopy& canopy, Arena& arena)
     fill_cells(surface, view, canopy);
     smooth(surface, floats);
     bridge(surface, floats, bytes);
-    arena.rewind(mark);
     tear(surface);
+    tear_softly(surface, floats, bytes);
+    arena.rewind(mark);
     measure_inside(surface);
     return surface;
 }

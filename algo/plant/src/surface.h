@@ -24,14 +24,15 @@ struct Surface
     /// Bits of `torn`: the surface ends between this cell and its neighbour.
     static constexpr std::uint8_t kRight = 1, kBelow = 2, kLeft = 4, kAbove = 8;
     static constexpr int kMargin = 2;
-    static constexpr int kUnit = 5; ///< of `depth_px5`: chamfer distances 5 and 7, Borgefors 1986
+    static constexpr int kUnit = 5; ///< of `inside_px5`: chamfer distances 5 and 7, Borgefors 1986
 
     int left = 0, top = 0; ///< of the view, at cell (0, 0)
     int width = 0, height = 0;
     double focal_px = 0;
     std::span<std::uint8_t> cell;
-    std::span<float> inverse;     ///< focal length by depth, 1 / mm: linear in the picture where the surface is flat
-    std::span<std::uint8_t> torn; ///< of kPoint and kBridge
+    std::span<std::uint8_t> plant; ///< of kPoint and kBridge
+    std::span<float> inverse;      ///< focal length by depth, 1 / mm: linear in the picture where the surface is flat
+    std::span<std::uint8_t> torn;  ///< of kPoint and kBridge
     std::span<std::int16_t> inside_px5; ///< distance to the next tear, in fifths of a px
 
     std::size_t cells() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }

@@ -16,7 +16,7 @@ Measured visible_area(const PlantView& view, const Leaves& leaves, const LeafSur
             continue;
         const LeafGaps& gaps = surfaces.gaps[static_cast<std::size_t>(leaf - 1)];
         missing += gaps.inside_cells + kBesideShare * gaps.beside_cells;
-        for (const SurfaceCell& cell : surfaces.of(leaf)) {
+        for (const SurfaceCell& cell : surfaces.blade_of(leaf)) {
             const double side_mm = cell.z / view.focal_px;
             const double steepness = cell.area_mm2 / (side_mm * side_mm);
             if (steepness < kSteep)

@@ -1,0 +1,316 @@
+// Drawn scenes: ellipses of flat and folded blades above a bench, seen by a camera 400 mm above it.
+#include "dicot/plant/canopy.h"
+#include "dicot/plant/leaves.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <random>
+#include <set>
+#include <vector>
+
+namespace dicot {
+namespace {
+
+constexpr int kWidth = 640, kHeight = 480;
+constexpr double kFocalPx = 600, kCxPx = 320, kCyPx = 240, kHighMm = 400;
+constexpr Rgb8 kBrown{120, 96, 70}, kGreen{70, 130, 50}, kWhite{240, 245, 240}, kLawn{80, 140, 60};
+// 20 degrees down.
+const double kUp[3] = {0, -std::cos(20 * M_PI / 180), -std::sin(20 * M_PI / 180)};
+
+using Inside = std::function<bool(double, double)>;
+/// Depth in mm along the ray (u, v, 1).
+using Depth = std::function<double(double, double)>;
+
+Inside ellipse(double x, double y, double half_width, double half_height)
+{
+    return [=](double column, double row) {
+        const double a = (column - x) / half_width, b = (row - y) / half_height;
+        return a * a + b * b <= 1;
+    };
+}
+
+Inside box(double left, double top, double right, double bottom)
+{
+    return [=](double x, double y) { return x >= left && x <= right && y >= top && y <= bottom; };
+}
+
+/// The plane at `mm` in column and row of the middle that recedes by so many mm a px to the right and down.
+Depth plane(double mm, double right, double down)
+{
+    return [=](double u, double v) { return mm / (1 - (right * u + down * v) * kFocalPx / mm); };
+}
+
+/// Points at a height above the bench.
+Depth level(double height_mm)
+{
+    return [=](double u, double v) {
+        const double down = -(kUp[0] * u + kUp[1] * v + kUp[2]);
+        return down > 0 ? (kHighMm - height_mm) / down : 1e9;
+    };
+}
+
+struct alignas(Arena::kAlignment) Line
+{
+    std::byte bytes[Arena::kAlignment];
+};
+
+class Scene
+{
+public:
+    Scene() : mm_(kPixels, 1e9), colour_(kPixels), name_(kPixels, 0)
+    {
+        paint(0, box(0, 0, kWidth, kHeight), level(0), kBrown);
+    }
+
+    /// What is nearer hides what is farther.
+    Scene& paint(int name, const Inside& inside, const Depth& depth, Rgb8 colour = kGreen)
+    {
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x) {
+                const std::size_t i = static_cast<std::size_t>(y * kWidth + x);
+                const double mm = inside(x, y) ? depth((x - kCxPx) / kFocalPx, (y - kCyPx) / kFocalPx) : 1e9;
+                if (mm < mm_[i]) {
+                    mm_[i] = mm;
+                    colour_[i] = colour;
+                    name_[i] = name;
+                }
+            }
+        return *this;
+    }
+
+    /// With noise of 0.3 mm at 600 mm.
+    const Scene& look(std::span<const PlantBox> boxes = {})
+    {
+        std::mt19937 random(3);
+        points_.clear();
+        names_.clear();
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x) {
+                const std::size_t i = static_cast<std::size_t>(y * kWidth + x);
+                const double noise = (static_cast<double>(random() % 1000) / 1000 - 0.5) * 1e-3;
+                const double z = mm_[i] * (1 + noise);
+                if (mm_[i] > 1300)
+                    continue;
+                const auto steps = [](double mm) { return static_cast<std::int32_t>(std::lround(mm * 10)); };
+                points_.push_back(
+                    {steps((x - kCxPx) / kFocalPx * z), steps((y - kCyPx) / kFocalPx * z), steps(z), colour_[i], 200});
+                names_.push_back(name_[i]);
+            }
+        view_memory_.resize((std::size_t{kPixels} * 4 + (1 << 20)) / sizeof(Line));
+        Arena arena{std::as_writable_bytes(std::span{view_memory_})};
+        const PointCloud cloud{points_, {}};
+        view = plant_view(cloud, arena).value();
+        memory_.resize(segment_leaves_bytes(view) / sizeof(Line) + 1);
+        Arena table{std::as_writable_bytes(std::span{memory_})};
+        auto found = segment_leaves(view, boxes, table);
+        EXPECT_TRUE(found.ok());
+        leaves = found.value();
+        return *this;
+    }
+
+    /// The number that most points of `name` have, as leaf.
+    int leaf_of(int name) const
+    {
+        return most(name, [&](std::size_t i) { return int{leaves.leaf[i]}; });
+    }
+    int plant_of(int name) const
+    {
+        return most(name, [&](std::size_t i) { return int{leaves.plant[i]}; });
+    }
+
+    /// Points that both have, by points that one of them has.
+    double overlap(int name) const
+    {
+        const int leaf = leaf_of(name);
+        double both = 0, either = 0;
+        for (std::size_t i = 0; i < names_.size(); ++i) {
+            both += names_[i] == name && leaves.leaf[i] == leaf;
+            either += names_[i] == name || leaves.leaf[i] == leaf;
+        }
+        return both / either;
+    }
+
+    PlantView view;
+    Leaves leaves;
+
+private:
+    static constexpr std::size_t kPixels = std::size_t{kWidth} * kHeight;
+
+    template <typename Number>
+    int most(int name, const Number& number) const
+    {
+        std::vector<int> count(1 << 16);
+        for (std::size_t i = 0; i < names_.size(); ++i)
+            if (names_[i] == name)
+                ++count[static_cast<std::size_t>(number(i))];
+        return static_cast<int>(std::max_element(count.begin(), count.end()) - count.begin());
+    }
+
+    std::vector<double> mm_;
+    std::vector<Rgb8> colour_;
+    std::vector<int> name_;
+    std::vector<CloudPoint> points_;
+    std::vector<int> names_; ///< of the points
+    std::vector<Line> view_memory_, memory_;
+};
+
+TEST(Ground, IsTheBenchSeenFromAboveItsPlane)
+{
+    Scene scene;
+    scene.paint(1, ellipse(320, 200, 60, 40), plane(600, 0.1, 0));
+    const GroundFrame ground = scene.look().leaves.ground;
+    ASSERT_EQ(ground.kind, GroundFrame::Kind::kBench);
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(ground.up[axis], kUp[axis], 5e-4);
+        EXPECT_NEAR(ground.origin_mm[axis], -kHighMm * kUp[axis], 0.5);
+    }
+    const double right[3] = {1, 0, 0};
+    for (int axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(ground.right[axis], right[axis], 5e-4);
+    EXPECT_LT(ground.rms_mm, 1);
+}
+
+TEST(Ground, MovesUpToTheSoilOfAPot)
+{
+    Scene scene;
+    scene.paint(0, ellipse(320, 330, 90, 40), level(110), {60, 45, 35})
+        .paint(1, ellipse(320, 220, 60, 40), plane(620, 0, 0.2));
+    const GroundFrame ground = scene.look().leaves.ground;
+    EXPECT_EQ(ground.kind, GroundFrame::Kind::kSoil);
+    EXPECT_NEAR(ground.bench_mm, -110, 1);
+    for (int axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(ground.origin_mm[axis], -(kHighMm - 110) * kUp[axis], 1.5);
+}
+
+TEST(Ground, GreenLawnIsNoCanopy)
+{
+    Scene scene;
+    scene.paint(0, box(0, 0, kWidth, kHeight), level(1), kLawn).paint(1, ellipse(320, 200, 60, 40), plane(600, 0.1, 0));
+    scene.look();
+    EXPECT_EQ(scene.leaves.plant_count, 1);
+    EXPECT_EQ(scene.leaves.leaf_count, 1);
+    EXPECT_GT(scene.overlap(1), 0.97);
+}
+
+TEST(Ground, NothingGreenIsNoPlant)
+{
+    Scene scene;
+    scene.look();
+    EXPECT_EQ(scene.leaves.plant_count, 0);
+    EXPECT_EQ(scene.leaves.leaf_count, 0);
+}
+
+TEST(Leaves, OneOverTheOtherAreTwo)
+{
+    Scene scene;
+    scene.paint(1, ellipse(300, 200, 70, 45), plane(640, 0.1, 0.2))
+        .paint(2, ellipse(350, 220, 70, 45), plane(615, -0.1, 0.1));
+    scene.look();
+    EXPECT_EQ(scene.leaves.leaf_count, 2);
+    EXPECT_GT(scene.overlap(1), 0.95);
+    EXPECT_GT(scene.overlap(2), 0.95);
+}
+
+TEST(Leaves, TwoThatTouchAreTwo)
+{
+    Scene scene;
+    // The contact is 15 px long, in front of the bench.
+    scene.paint(1, ellipse(260, 340, 60, 40), plane(620, 0.1, 0.2))
+        .paint(2, ellipse(378, 340, 60, 40), plane(620, 0.3, 0.2));
+    scene.look();
+    EXPECT_EQ(scene.leaves.leaf_count, 2);
+    EXPECT_GT(scene.overlap(1), 0.95);
+    EXPECT_GT(scene.overlap(2), 0.95);
+}
+
+TEST(Leaves, ABladeFoldedAtItsMidribIsOne)
+{
+    Scene scene;
+    const Depth fold = [](double u, double v) {
+        return u < 0 ? plane(620, 0.6, 0.1)(u, v) : plane(620, -0.6, 0.1)(u, v);
+    };
+    scene.paint(1, ellipse(320, 200, 60, 90), fold);
+    scene.look();
+    EXPECT_EQ(scene.leaves.leaf_count, 1);
+    EXPECT_GT(scene.overlap(1), 0.95);
+}
+
+TEST(Leaves, AStemInFrontCutsNoBladeInTwo)
+{
+    Scene scene;
+    scene.paint(1, ellipse(320, 200, 80, 50), plane(640, 0.2, 0.1)).paint(2, box(322, 100, 330, 330), plane(560, 0, 0));
+    scene.look();
+    EXPECT_GT(scene.overlap(1), 0.95);
+}
+
+TEST(Leaves, APetioleJoinsNoBlades)
+{
+    Scene scene;
+    scene.paint(1, ellipse(230, 200, 60, 40), plane(620, 0, 0))
+        .paint(2, ellipse(410, 200, 60, 40), plane(620, 0, 0))
+        .paint(3, box(280, 197, 360, 203), plane(620, 0, 0));
+    scene.look();
+    EXPECT_NE(scene.leaf_of(1), scene.leaf_of(2));
+    EXPECT_GT(scene.overlap(1), 0.9);
+    EXPECT_GT(scene.overlap(2), 0.9);
+}
+
+TEST(Leaves, AHighlightIsOfItsBlade)
+{
+    Scene scene;
+    const Depth blade = plane(620, 0.2, 0.1);
+    scene.paint(1, ellipse(320, 200, 80, 50), blade)
+        .paint(
+            1, ellipse(330, 190, 8, 5), [&](double u, double v) { return blade(u, v) - 0.01; }, kWhite);
+    scene.look();
+    EXPECT_EQ(scene.leaves.leaf_count, 1);
+    EXPECT_GT(scene.overlap(1), 0.99);
+}
+
+TEST(Plants, AreToldApartByGapsAndNumberedFromLeftToRight)
+{
+    Scene scene;
+    scene.paint(1, ellipse(480, 200, 50, 40), plane(600, 0, 0)).paint(2, ellipse(160, 200, 50, 40), plane(600, 0, 0));
+    scene.look();
+    EXPECT_EQ(scene.leaves.plant_count, 2);
+    EXPECT_EQ(scene.plant_of(2), 1);
+    EXPECT_EQ(scene.plant_of(1), 2);
+    EXPECT_EQ(scene.leaf_of(2), 1);
+    EXPECT_EQ(scene.leaf_of(1), 2);
+    EXPECT_EQ(scene.leaves.plant_of_leaf[1], 2);
+}
+
+TEST(Plants, AreWhatStandsInBoxes)
+{
+    Scene scene;
+    scene.paint(1, ellipse(480, 200, 50, 40), plane(600, 0, 0))
+        .paint(2, ellipse(160, 200, 50, 40), plane(600, 0, 0))
+        .paint(3, ellipse(320, 200, 50, 40), plane(600, 0, 0));
+    const PlantBox boxes[] = {{{60, 0, -1000}, {400, 2000, 1000}}, {{-400, 0, -1000}, {-60, 2000, 1000}}};
+    scene.look(boxes);
+    EXPECT_EQ(scene.leaves.plant_count, 2);
+    EXPECT_EQ(scene.plant_of(1), 1);
+    EXPECT_EQ(scene.plant_of(2), 2);
+    EXPECT_EQ(scene.plant_of(3), 0);
+    EXPECT_EQ(scene.leaf_of(3), 0);
+}
+
+TEST(Leaves, AreRefusedWithTooLittleMemory)
+{
+    Scene scene;
+    scene.paint(1, ellipse(320, 200, 60, 40), plane(600, 0.1, 0));
+    scene.look();
+    std::vector<Line> small(1000);
+    for (std::size_t lines = 1; lines <= small.size(); lines *= 10) {
+        Arena arena{std::as_writable_bytes(std::span{small.data(), lines})};
+        const auto refused = segment_leaves(scene.view, {}, arena);
+        ASSERT_FALSE(refused.ok());
+        EXPECT_EQ(refused.status().fault(), Fault::kConfig);
+    }
+}
+
+} // namespace
+} // namespace dicot
