@@ -97,7 +97,7 @@ TEST(PlantHonesty, TheLeastCertainAreTheMostWrong)
     print_sparsified("all surfaces, mean error up to 10 mm", judged(Measure::kCapped, surface));
     // Aimed at: 1.5. One that knew the true error of the 9 x 9 neighbours would reach 1.31 by this measure and 1.5 by
     // the other two, so the error is capped.
-    EXPECT_LE(capped.ratio(), 2.0);
+    EXPECT_LE(capped.ratio(), 1.95);
 }
 
 /// The confidence that nine of ten leaf pixels within 3 mm reach.
@@ -213,9 +213,8 @@ TEST(PlantHonesty, WhatCannotBeMatchedHasNoValueRatherThanAGuess)
     }
     for (const Place* place : {&blank, &pot, &bright})
         EXPECT_LE(place->percent(place->ours_guessed), 10) << place->name;
-    // Aimed at: 10 for both. Background that has no partner in the range finds one that looks like it.
-    EXPECT_LE(beyond.percent(beyond.ours_guessed), 25);
-    EXPECT_LE(hidden.percent(hidden.ours_guessed), 14);
+    EXPECT_LE(beyond.percent(beyond.ours_guessed), 10);
+    EXPECT_LE(hidden.percent(hidden.ours_guessed), 12); // aimed at: 10
     EXPECT_LE(hidden.ours_guessed, hidden.peers_guessed);
 }
 

@@ -74,7 +74,7 @@ TEST(PlantMeans, LeavesStandWhereTheyAre)
     EXPECT_LE(mean.median_mm, 0.8);
     EXPECT_GE(mean.valued, 93);
     EXPECT_GE(mean.within_valued, 88);
-    EXPECT_LE(mean.off_valued, 3.4); // aimed at: 2.5
+    EXPECT_LE(mean.off_valued, 2.9); // aimed at: 2.5
     EXPECT_LT(mean.median_mm, peer.median_mm);
     EXPECT_GT(mean.valued, peer.valued);
     EXPECT_GT(mean.within_all, peer.within_all);
@@ -138,7 +138,7 @@ TEST(PlantMeans, SunAndCloudsGiveTheSameLeaves)
     peers_all.print("; SGBM");
     std::printf("\n");
     EXPECT_LE(all.median_mm(), 1.0);
-    EXPECT_LE(all.density_gap(), 2.5); // aimed at: 2
+    EXPECT_LE(all.density_gap(), 2);
 }
 
 /// Bright light has taken one channel at least to the end of its scale.

@@ -96,6 +96,22 @@ TEST(Clipped, MatchesAtTheRightPicturesFirstThreeColumnsAreNotBelieved)
     EXPECT_EQ(sheet.maps.verdict.row(40)[28], Verdict::kMatched);
 }
 
+TEST(Farther, WhatLiesBeyondTheRangeGoesAndTheRestIsCountedFromItsEnd)
+{
+    Sheet sheet(grey); // at 20 px
+    sheet.maps.disparity.row(10)[5] = Sheet::px(6.996);
+    sheet.maps.disparity.row(10)[6] = Sheet::px(7);
+    sheet.maps.disparity.row(10)[7] = kDispMissing;
+    drop_farther(sheet.maps, 7);
+    EXPECT_EQ(sheet.maps.disparity.row(10)[5], kDispMissing);
+    EXPECT_EQ(sheet.maps.confidence.row(10)[5], 0);
+    EXPECT_EQ(sheet.maps.verdict.row(10)[5], Verdict::kMismatched);
+    EXPECT_EQ(sheet.maps.disparity.row(10)[6], 0);
+    EXPECT_EQ(sheet.maps.verdict.row(10)[6], Verdict::kMatched);
+    EXPECT_EQ(sheet.maps.disparity.row(10)[7], kDispMissing);
+    EXPECT_EQ(sheet.maps.disparity.row(40)[60], Sheet::px(13));
+}
+
 TEST(Votes, AHoleTakesWhatItsColoursNeighboursHaveAndADrawElectsNobody)
 {
     Sheet sheet([](int x, int) { return x < 60 ? Rgb8{200, 40, 40} : Rgb8{40, 40, 200}; });

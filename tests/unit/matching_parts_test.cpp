@@ -1,4 +1,5 @@
 // The fixed-point parts of the matcher against their definitions in double precision.
+#include "doubt.h"
 #include "lab.h"
 #include "tables.h"
 
@@ -100,6 +101,30 @@ TEST(CostTables, FollowEquationsTenToTwelve)
     EXPECT_EQ(tables.difference[0], 0);
     EXPECT_EQ(tables.difference[765], kCostMax);
     EXPECT_EQ(tables.census[8], 0);
+}
+
+TEST(Doubt, GoesByTheLogarithm)
+{
+    EXPECT_EQ(log2_q8(0), 0);
+    for (std::uint64_t x = 1; x < 1u << 20; x += 1 + x / 7)
+        EXPECT_NEAR(log2_q8(x) / 256.0, std::log2(static_cast<double>(x)), 0.09) << x; // a chord is 0.086 below
+}
+
+TEST(Doubt, GrowsWithWhatSpeaksAgainst)
+{
+    constexpr std::int64_t kVariance = 9 * 256, kTexture = 400, kSupport = 30 * 127;
+    const int shift = doubt_of_shift(kVariance, kTexture, kSupport);
+    EXPECT_GT(doubt_of_shift(4 * kVariance, kTexture, kSupport), shift);
+    EXPECT_GT(doubt_of_shift(kVariance, kTexture / 4, kSupport), shift);
+    EXPECT_GT(doubt_of_shift(kVariance, kTexture, 2 * kSupport), shift);
+    EXPECT_GT(doubt_of_plane(40, 100, 0), doubt_of_plane(90, 100, 0));
+    EXPECT_GT(doubt_of_plane(90, 100, 1024), doubt_of_plane(90, 100, 0));
+    EXPECT_GT(doubt_of_winner(512, 50), doubt_of_winner(0, 50));
+    EXPECT_GT(doubt_of_winner(0, 5), doubt_of_winner(0, 50));
+    EXPECT_LT(confidence_of(-1500), confidence_of(-2500));
+    EXPECT_EQ(confidence_of(kMostDoubt), 0);
+    EXPECT_EQ(confidence_of(kMostDoubt - kRange), 255);
+    EXPECT_EQ(confidence_of(kHopeless + doubt_of_winner(0, 255)), 0);
 }
 
 } // namespace

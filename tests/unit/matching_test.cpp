@@ -123,6 +123,54 @@ TEST(Matcher, FastTakesNoMoreMemoryThanStandardAndBestAtMostATenthMore)
     }
 }
 
+TEST(Matcher, BestTakesTheSameMemoryWhereverTheRangeBegins)
+{
+    const auto need = [](int min_disparity) {
+        MatchOptions options;
+        options.method = MatchMethod::kBest;
+        options.min_disparity = min_disparity;
+        Arena measure;
+        EXPECT_TRUE(Matcher::make(640, 480, options, kScalarKernels, 4, measure).ok());
+        return measure.peak();
+    };
+    for (const int min_disparity : {-20, 5, 60})
+        EXPECT_EQ(need(min_disparity), need(0)) << min_disparity;
+}
+
+TEST(Matcher, BestDoesNotTakeBackgroundForWhatItResemblesWithinTheRange)
+{
+    // A wall that nearly repeats every 16 px stands at 5 px, before it a square at 15 px; searched from 7 to 30 px,
+    // where the wall's likeness is at 21 px.
+    Pair pair = scene(120, 60, 5, 15, 7);
+    for (std::vector<Rgb8>* picture : {&pair.left, &pair.right}) {
+        const int shift = picture == &pair.left ? 0 : 5;
+        for (int y = 0; y < 60; ++y)
+            for (int x = 0; x < 120; ++x) {
+                const int in_left = picture == &pair.left ? x : x + 15;
+                if (in_left > 60 && in_left < 90 && y > 15 && y < 45)
+                    continue;
+                const auto level = static_cast<std::uint8_t>((x + shift) % 16 * 37 % 97 * 2 + (x + shift) / 16 + y);
+                (*picture)[static_cast<std::size_t>(y * 120 + x)] = {level, level, level};
+            }
+    }
+    MatchOptions options = small_options();
+    options.method = MatchMethod::kBest;
+    options.min_disparity = 7;
+    const Matched matched(pair.left_view(), pair.right_view(), options);
+    EXPECT_EQ(matched.map().min_disparity, 7);
+    EXPECT_EQ(matched.map().disparities, options.disparities);
+    EXPECT_NEAR(matched.map().relative.at(75, 30) / 256.0, 15.0 - 7, 0.3);
+    for (int y = 0; y < 60; ++y)
+        for (int x = 30; x < 55; ++x)
+            ASSERT_EQ(matched.map().relative.at(x, y), kDispMissing) << x << ", " << y;
+    options.dense = true;
+    const Matched dense(pair.left_view(), pair.right_view(), options);
+    EXPECT_NEAR(dense.map().relative.at(75, 30) / 256.0, 15.0 - 7, 0.3);
+    for (int y = 0; y < 60; ++y)
+        for (int x = 0; x < 120; ++x)
+            ASSERT_LE(dense.map().relative.at(x, y), (options.disparities - 1) << 8) << x << ", " << y;
+}
+
 TEST(Matcher, StandardLeavesHiddenPixelsWithoutAValueAndDenseFillsThemFromBehind)
 {
     const Pair pair = scene(120, 60, 5, 15, 7);

@@ -27,11 +27,12 @@ struct Scene
     CostTables costs;
     int width;
     int height;
-    int radius;      ///< of the window
-    int disparities; ///< as asked for
-    int axis;        ///< disparities, padded to whole vectors
-    int min_disparity;
-    bool near_window; ///< mix the costs of a narrow window in; needs a radius of 3 at least
+    int radius;        ///< of the window
+    int farther;       ///< of kBest: disparities that are searched before those asked for, to know what lies beyond
+    int disparities;   ///< as asked for, and the farther ones
+    int axis;          ///< disparities, padded to whole vectors
+    int min_disparity; ///< of the farthest
+    bool near_window;  ///< mix the costs of a narrow window in; needs a radius of 3 at least
 };
 
 /// The aggregated costs of one row: [width][axis], index r = axis - 1 - d; kNoCandidate where there is no partner.

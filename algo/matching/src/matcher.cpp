@@ -15,6 +15,10 @@ namespace matching {
 
 namespace {
 
+/// Of a range so many times smaller is what kBest searches beyond its far end: background has its true partner there
+/// and takes no other.
+constexpr int kFartherShare = 8;
+
 /// The voters' gamma, in those of the support weights.
 constexpr double kVotersGamma = 1.5;
 
@@ -65,6 +69,15 @@ void lay_out(Bench& bench, Arena& arena, const MatchOptions& options, int worker
     }
 }
 
+/// Nothing lies farther than disparity 0.
+int farther_of(const MatchOptions& options)
+{
+    if (options.method != MatchMethod::kBest)
+        return 0;
+    return std::clamp(options.min_disparity, 0,
+                      std::min(options.disparities / kFartherShare, kMaxDisparities - options.disparities));
+}
+
 Scene scene_of(int width, int height, const MatchOptions& options, const Kernels& kernels)
 {
     Scene scene{};
@@ -72,9 +85,10 @@ Scene scene_of(int width, int height, const MatchOptions& options, const Kernels
     scene.width = width;
     scene.height = height;
     scene.radius = options.window / 2;
-    scene.disparities = options.disparities;
-    scene.axis = (options.disparities + kLanes - 1) / kLanes * kLanes;
-    scene.min_disparity = options.min_disparity;
+    scene.farther = farther_of(options);
+    scene.disparities = options.disparities + scene.farther;
+    scene.axis = (scene.disparities + kLanes - 1) / kLanes * kLanes;
+    scene.min_disparity = options.min_disparity - scene.farther;
     scene.near_window = options.method == MatchMethod::kBest && scene.radius >= NearWindow::kRadius;
     return scene;
 }
@@ -122,8 +136,11 @@ Result<Matcher> Matcher::make(int width, int height, const MatchOptions& options
 
     // First what it takes, then the real thing: nothing is written into an arena that is too small.
     Arena measure;
+    // Where the range begins must not matter, so it is measured with all that may be searched beyond it.
+    MatchOptions widest = options;
+    widest.min_disparity = std::max(options.min_disparity, options.disparities);
     Bench measured{};
-    measured.scene = scene_of(width, height, options, kernels);
+    measured.scene = scene_of(width, height, widest, kernels);
     (void)measure.take<Bench>(1);
     (void)measure.take<Station>(static_cast<std::size_t>(workers));
     lay_out(measured, measure, options, workers);
@@ -136,7 +153,7 @@ Result<Matcher> Matcher::make(int width, int height, const MatchOptions& options
 
     Arena own(block);
     Bench* bench = ::new (own.take<Bench>(1).data()) Bench{};
-    bench->scene = measured.scene;
+    bench->scene = scene_of(width, height, options, kernels);
     bench->stations = own.take<Station>(static_cast<std::size_t>(workers));
     for (Station& station : bench->stations)
         ::new (&station) Station{};
@@ -193,13 +210,15 @@ MatchOutcome Matcher::match(ImageView<const Rgb8> left, ImageView<const Rgb8> ri
         drop_clipped(bench.maps, scene.min_disparity);
         drop_speckles(bench.maps, bench.columns);
     }
-    if (best || !options_.dense)
+    if (!best && !options_.dense)
         drop_unmatched(bench.maps);
     if (best)
         bench.refiner.refine(scene, bench.maps, options_.dense, crew);
+    if (best)
+        drop_farther(bench.maps, scene.farther);
     if (options_.dense && best) {
-        take_majorities(bench.maps, scene.disparities, scene.left, bench.voters, crew);
-        fill_along_planes(bench.maps, scene.disparities, scene.left, bench.voters, crew);
+        take_majorities(bench.maps, options_.disparities, scene.left, bench.voters, crew);
+        fill_along_planes(bench.maps, options_.disparities, scene.left, bench.voters, crew);
         smooth_evenly(bench.maps, crew);
     } else if (options_.dense) {
         fill_gaps(bench.maps);
@@ -210,8 +229,8 @@ MatchOutcome Matcher::match(ImageView<const Rgb8> left, ImageView<const Rgb8> ri
     MatchOutcome outcome{};
     outcome.map.relative = bench.maps.disparity;
     outcome.map.confidence = bench.maps.confidence;
-    outcome.map.min_disparity = scene.min_disparity;
-    outcome.map.disparities = scene.disparities;
+    outcome.map.min_disparity = options_.min_disparity;
+    outcome.map.disparities = options_.disparities;
     outcome.times = bench.stations[0].times;
     outcome.times.prepare = prepared - start;
     outcome.times.refine = clock() - matched;

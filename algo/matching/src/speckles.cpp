@@ -54,6 +54,25 @@ Island island_of(const Maps& maps, Position start)
 
 } // namespace
 
+void drop_farther(const Maps& maps, int farther)
+{
+    const DispQ8 nearest = static_cast<DispQ8>(farther << kDispFractionBits);
+    for (int y = 0; y < maps.disparity.height; ++y) {
+        for (int x = 0; x < maps.disparity.width; ++x) {
+            DispQ8& disparity = maps.disparity.row(y)[x];
+            if (disparity == kDispMissing)
+                continue;
+            if (disparity >= nearest) {
+                disparity = static_cast<DispQ8>(disparity - nearest);
+                continue;
+            }
+            disparity = kDispMissing;
+            maps.confidence.row(y)[x] = 0;
+            maps.verdict.row(y)[x] = Verdict::kMismatched;
+        }
+    }
+}
+
 void drop_clipped(const Maps& maps, int min_disparity)
 {
     for (int y = 0; y < maps.disparity.height; ++y) {

@@ -1,17 +1,18 @@
 #include "surfaces.h"
 
+#include "doubt.h"
+#include "neighbourhood.h"
 #include "plane_sums.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdlib>
 #include <utility>
 
 namespace dicot::matching {
 namespace {
 
-constexpr int kRounds = 4;
+constexpr int kRoundsWhenDense = 4, kRounds = 3, kRoundsAfterChoice = 1;
 constexpr int kOnePx = 1 << kSlopeBits;
 /// Neighbours farther from the plane than this are of another surface; wider in the first fit, which knows no slope.
 constexpr int kSameSurface = kOnePx;
@@ -24,65 +25,23 @@ constexpr int kLongestStep = kOnePx / 2;
 /// Where the pictures differ by more, 40 grey levels, they do not show the same.
 constexpr int kSameBrightness = 40 << 4;
 constexpr std::int16_t kUnknown = INT16_MIN;
+/// No pixel mismatches a plane by more, 20 grey levels in 1/16; what hides one would decide alone.
+constexpr int kMostMismatch = 20 << 4;
+/// Another plane must mismatch by this much less, 0.3 grey levels in 1/256, and by a sixth of the rest.
+constexpr int kClearlyLess = 77;
+/// Where the planes of other surfaces are looked for, px right and down of a pixel.
+constexpr struct
+{
+    int dx, dy;
+} kAround[] = {{-2, 0},  {2, 0},  {0, -2}, {0, 2}, {-4, 0}, {4, 0}, {0, -4}, {0, 4},
+               {-4, -4}, {4, -4}, {-4, 4}, {4, 4}, {-7, 0}, {7, 0}, {0, -7}, {0, 7}};
+/// Planes that are nearer to each other are one.
+constexpr int kSamePlane = kOnePx / 2;
+/// Partners in the first columns of the right picture are not believed: the best one may lie beyond.
+constexpr int kFirstPartner = 3;
 /// Neighbours of the shift: a square of 9, every pixel; of the planes: 17, every second one.
 constexpr int kShiftReach = 4, kShiftStride = 1;
 constexpr int kFitReach = SurfaceRefiner::kReach, kFitStride = 2;
-
-/// The support weights of a strip of pixels to all neighbours, 0 .. 127.
-template <int reach, int stride>
-class Neighbourhood
-{
-public:
-    /// Calls pixel(x, neighbours) for each pixel of row y; neighbours(visit) calls visit(weight, dx, dy) for each one
-    /// that counts. All are inside the picture.
-    template <typename Pixel>
-    static void sweep(const Scene& scene, int y, Pixel&& pixel)
-    {
-        Neighbourhood window;
-        for (int x0 = 0; x0 < scene.width; x0 += kStrip) {
-            const int count = std::min(kStrip, scene.width - x0);
-            window.weigh(scene, y, x0, count);
-            for (int i = 0; i < count; ++i)
-                pixel(x0 + i, [&](auto&& visit) { window.visit(i, visit); });
-        }
-    }
-
-private:
-    static constexpr int kSide = 2 * reach / stride + 1;
-    static constexpr int kStrip = 32;
-
-    void weigh(const Scene& scene, int y, int x0, int count)
-    {
-        constexpr PairU16 kBoth = {kLeftWeightOne, kLeftWeightOne};
-        for (int row = 0; row < kSide; row += 2) {
-            const int dy = row * stride - reach;
-            const LabRow low = scene.left.lab(y + dy);
-            const LabRow high = scene.left.lab(row + 1 < kSide ? y + dy + stride : -1);
-            for (int column = 0; column < kSide; ++column) {
-                const int dx = column * stride - reach;
-                scene.kernels->support_weights(weights_[static_cast<std::size_t>(row / 2 * kSide + column)].data(),
-                                               count, moved(scene.left.lab(y), x0), moved(low, x0 + dx),
-                                               moved(high, x0 + dx), scene.colour.table, kBoth);
-            }
-        }
-    }
-
-    template <typename Visit>
-    void visit(int i, Visit&& visit) const
-    {
-        for (int row = 0; row < kSide; ++row) {
-            for (int column = 0; column < kSide; ++column) {
-                const PairU16 pair =
-                    weights_[static_cast<std::size_t>(row / 2 * kSide + column)][static_cast<std::size_t>(i)];
-                const int weight = (row % 2 == 0 ? pair.low : pair.high) >> 8;
-                if (weight > 0)
-                    visit(weight, column * stride - reach, row * stride - reach);
-            }
-        }
-    }
-
-    std::array<std::array<PairU16, kStrip>, static_cast<std::size_t>((kSide + 1) / 2 * kSide)> weights_;
-};
 
 /// Catmull and Rom's cubic through four values, `t` of kSlopeBits fraction bits from the second to the third.
 int cubic(const std::int16_t* p, int t)
@@ -116,42 +75,6 @@ struct ShiftSums
 constexpr std::int64_t kSquareUnit = std::int64_t{64 * 64} * 128;
 /// Noise has gradients too: this much is none.
 constexpr std::int64_t kNoTexture = 30 * kSquareUnit;
-
-/// Of which nobody can say how good it is.
-constexpr std::int16_t kHopeless = INT16_MAX;
-/// With more doubt there is no value, and with kRange less there is none. In 1/256, as all doubt.
-constexpr int kMostDoubt = 330;
-constexpr int kRange = 8 * 256;
-
-/// log2, 8 fraction bits, straight between powers of two; 0 for 0.
-int log2_q8(std::uint64_t x)
-{
-    const int exponent = std::max(static_cast<int>(std::bit_width(x)) - 1, 0);
-    return (exponent << 8) + static_cast<int>((x << 8 >> exponent) & 255);
-}
-
-/// A shift is doubtful where the pictures differ at it and where there is little texture to tell.
-std::int16_t doubt_of_shift(std::int64_t variance, int texture)
-{
-    constexpr int kOne = 256;         // (1/16 grey level)^2 in 1 grey level^2
-    constexpr int kTextureShare = 27; // of 64
-    const int differs = log2_q8(static_cast<std::uint64_t>(std::max<std::int64_t>(variance, 0) + kOne)) - (8 << 8);
-    const int tells = log2_q8(static_cast<std::uint64_t>(texture + 5));
-    return static_cast<std::int16_t>(differs - tells * kTextureShare / 64);
-}
-
-/// A plane is doubtful where few of the neighbours asked are on it, and where those are not quite.
-int doubt_of_plane(std::int64_t agreed, std::int64_t asked, std::int64_t deviation)
-{
-    constexpr int kAlone = 922;  // 3.6 for all
-    constexpr int kUneven = 742; // 2.9 a px
-    return static_cast<int>(deviation * kUneven / kOnePx - agreed * kAlone / asked);
-}
-
-std::uint8_t confidence_of(std::int16_t doubt)
-{
-    return static_cast<std::uint8_t>(doubt == kHopeless ? 0 : std::clamp((kMostDoubt - doubt) * 255 / kRange, 0, 255));
-}
 
 template <typename Pixel>
 ImageView<Pixel> take_plane(Arena& arena, const Scene& scene)
@@ -191,7 +114,7 @@ void SurfaceRefiner::read_brightness(const Scene& scene, Crew& crew)
     });
 }
 
-void SurfaceRefiner::look_up(const Scene& scene, Crew& crew)
+void SurfaceRefiner::look_up(const Scene& scene, const Maps& maps, Crew& crew)
 {
     crew.run(scene.height, [&](int y) {
         const std::int16_t* left = left_.row(y);
@@ -199,7 +122,8 @@ void SurfaceRefiner::look_up(const Scene& scene, Crew& crew)
         for (int x = 0; x < scene.width; ++x) {
             difference_.row(y)[x] = kUnknown;
             const Slope& own = slopes_.row(y)[x];
-            if (own.disparity == kNoSlope || x < 1 || x + 1 >= scene.width)
+            if (maps.verdict.row(y)[x] != Verdict::kMatched || own.disparity == kNoSlope || x < 1 ||
+                x + 1 >= scene.width)
                 continue;
             const int position = ((x - scene.min_disparity) << kSlopeBits) - own.disparity;
             const int column = position >> kSlopeBits;
@@ -218,7 +142,7 @@ void SurfaceRefiner::look_up(const Scene& scene, Crew& crew)
     });
 }
 
-void SurfaceRefiner::shift_row(const Scene& scene, int y)
+void SurfaceRefiner::shift_row(const Scene& scene, const Maps& maps, int y)
 {
     Neighbourhood<kShiftReach, kShiftStride>::sweep(scene, y, [&](int x, const auto& neighbours) {
         const Slope own = slopes_.row(y)[x];
@@ -244,9 +168,10 @@ void SurfaceRefiner::shift_row(const Scene& scene, int y)
         const std::int64_t step = -(products * (4 << kSlopeBits)) / (squares + kNoTexture);
         next_.row(y)[x].disparity +=
             static_cast<std::int32_t>(std::clamp<std::int64_t>(step, -kLongestStep, kLongestStep));
-        texture_.row(y)[x] =
-            static_cast<std::uint16_t>(std::min<std::int64_t>(squares / kSquareUnit + 1, PlaneSums::kMostWeight));
-        doubt_.row(y)[x] = doubt_of_shift(sums.variance(), texture_.row(y)[x]);
+        const std::int64_t texture = std::min<std::int64_t>(squares / kSquareUnit + 1, PlaneSums::kMostWeight);
+        doubt_.row(y)[x] = doubt_of_shift(sums.variance(), texture, sums.one);
+        if (maps.verdict.row(y)[x] == Verdict::kMatched)
+            texture_.row(y)[x] = static_cast<std::uint16_t>(texture);
     });
 }
 
@@ -294,13 +219,106 @@ void SurfaceRefiner::fit_planes(const Scene& scene, Crew& crew, int same_surface
     std::swap(slopes_, next_);
 }
 
+template <typename Visit>
+void SurfaceRefiner::visit_planes(const Scene& scene, int x, int y, Visit&& visit) const
+{
+    for (const auto [dx, dy] : kAround) {
+        if (x + dx < 0 || x + dx >= scene.width || y + dy < 0 || y + dy >= scene.height)
+            continue;
+        const Slope there = slopes_.row(y + dy)[x + dx];
+        if (there.disparity == kNoSlope || doubt_.row(y + dy)[x + dx] > kDoubtfulPlane)
+            continue;
+        const std::int32_t here = there.disparity - there.across * dx - there.down * dy;
+        const int partner = x - scene.min_disparity - (here >> kSlopeBits);
+        if (here >= 0 && here < scene.disparities << kSlopeBits && partner >= kFirstPartner)
+            visit(Slope{here, there.across, there.down});
+    }
+}
+
+template <typename Neighbours>
+int SurfaceRefiner::mismatch(const Scene& scene, int x, int y, Slope plane, const Neighbours& neighbours) const
+{
+    const int partner = x - (plane.disparity >> kSlopeBits); // in the search frame
+    const LabRow centre = scene.right.lab(y);
+    std::int64_t one = 0, sum = 0;
+    neighbours([&](int weight, int dx, int dy) {
+        const int position =
+            ((x + dx - scene.min_disparity) << kSlopeBits) - (plane.disparity + plane.across * dx + plane.down * dy);
+        const int column = position >> kSlopeBits;
+        if (column < 0 || column + 1 >= scene.width)
+            return;
+        const int right_weight =
+            scene.colour.between(centre, partner, scene.right.lab(y + dy), column + scene.min_disparity) >> 8;
+        const std::int16_t* right = right_.row(y + dy) + column;
+        const int between = right[0] + ((right[1] - right[0]) * (position & (kOnePx - 1)) >> kSlopeBits);
+        one += weight * right_weight;
+        sum += weight * right_weight * std::min(std::abs(left_.row(y + dy)[x + dx] - between), kMostMismatch);
+    });
+    return static_cast<int>(one > 0 ? sum * 16 / one : kMostMismatch * 16);
+}
+
+Slope SurfaceRefiner::nearest_plane(const Scene& scene, int x, int y, std::int32_t winner) const
+{
+    Slope nearest{kNoSlope, 0, 0};
+    int least = kOnePx;
+    visit_planes(scene, x, y, [&](Slope plane) {
+        const int apart = std::abs(plane.disparity - winner);
+        if (apart < least) {
+            least = apart;
+            nearest = plane;
+        }
+    });
+    return nearest;
+}
+
+void SurfaceRefiner::choose_row(const Scene& scene, const Maps& maps, int y)
+{
+    Neighbourhood<kShiftReach, kShiftStride>::sweep(scene, y, [&](int x, const auto& neighbours) {
+        const Slope own = slopes_.row(y)[x];
+        Slope& chosen = next_.row(y)[x];
+        chosen = own;
+        if (own.disparity == kNoSlope) {
+            if (maps.verdict.row(y)[x] == Verdict::kMismatched)
+                chosen = nearest_plane(scene, x, y, maps.disparity.row(y)[x] << (kSlopeBits - kDispFractionBits));
+            return;
+        }
+        std::array<std::int32_t, std::size(kAround) + 1> tried{own.disparity};
+        std::size_t count = 1;
+        int least = 0;
+        visit_planes(scene, x, y, [&](Slope plane) {
+            const auto known = [&](std::int32_t d) { return std::abs(d - plane.disparity) < kSamePlane; };
+            if (std::any_of(tried.begin(), tried.begin() + count, known))
+                return;
+            tried[count++] = plane.disparity;
+            if (least == 0)
+                least = (mismatch(scene, x, y, own, neighbours) - kClearlyLess) * 5 / 6;
+            const int there = mismatch(scene, x, y, plane, neighbours);
+            if (there < least) {
+                least = there;
+                chosen = plane;
+            }
+        });
+    });
+}
+
+void SurfaceRefiner::run_rounds(const Scene& scene, const Maps& maps, int rounds, Crew& crew)
+{
+    for (int round = 0; round < rounds; ++round) {
+        look_up(scene, maps, crew);
+        crew.run(scene.height, [&](int y) { shift_row(scene, maps, y); });
+        std::swap(slopes_, next_);
+        fit_planes(scene, crew, kSameSurface);
+    }
+}
+
 void SurfaceRefiner::refine(const Scene& scene, const Maps& maps, bool dense, Crew& crew)
 {
     constexpr int kMoreBits = kSlopeBits - kDispFractionBits;
     crew.run(scene.height, [&](int y) {
         for (int x = 0; x < scene.width; ++x) {
             const DispQ8 d = maps.disparity.row(y)[x];
-            slopes_.row(y)[x] = {d == kDispMissing ? kNoSlope : d << kMoreBits, 0, 0};
+            const bool matched = d != kDispMissing && maps.verdict.row(y)[x] == Verdict::kMatched;
+            slopes_.row(y)[x] = {matched ? d << kMoreBits : kNoSlope, 0, 0};
             texture_.row(y)[x] = 1;
             doubt_.row(y)[x] = 0;
         }
@@ -308,24 +326,28 @@ void SurfaceRefiner::refine(const Scene& scene, const Maps& maps, bool dense, Cr
     read_brightness(scene, crew);
     fit_planes(scene, crew, kSameSurfaceAtFirst);
     fit_planes(scene, crew, kSameSurface);
-    for (int round = 0; round < kRounds; ++round) {
-        look_up(scene, crew);
-        crew.run(scene.height, [&](int y) { shift_row(scene, y); });
+    run_rounds(scene, maps, dense ? kRoundsWhenDense : kRounds, crew);
+    if (!dense) {
+        crew.run(scene.height, [&](int y) { choose_row(scene, maps, y); });
         std::swap(slopes_, next_);
-        fit_planes(scene, crew, kSameSurface);
+        run_rounds(scene, maps, kRoundsAfterChoice, crew);
     }
     const int most = (scene.disparities - 1) << kDispFractionBits;
     crew.run(scene.height, [&](int y) {
         for (int x = 0; x < scene.width; ++x) {
             const std::int32_t d = slopes_.row(y)[x].disparity;
-            if (d == kNoSlope)
-                continue;
             DispQ8& was = maps.disparity.row(y)[x];
+            std::uint8_t& confidence = maps.confidence.row(y)[x];
+            if (d == kNoSlope) {
+                was = kDispMissing;
+                confidence = 0;
+                continue;
+            }
             const int is = std::clamp((d + (1 << (kMoreBits - 1))) >> kMoreBits, 0, most);
+            const std::uint8_t sure = confidence_of(doubt_.row(y)[x] + doubt_of_winner(std::abs(is - was), confidence));
             if (!dense || std::abs(is - was) <= kFarthestWhenDense)
                 was = static_cast<DispQ8>(is);
-            const std::uint8_t sure = confidence_of(doubt_.row(y)[x]);
-            maps.confidence.row(y)[x] = dense ? std::max<std::uint8_t>(sure, 1) : sure;
+            confidence = dense ? std::max<std::uint8_t>(sure, 1) : sure;
             if (!dense && sure == 0)
                 was = kDispMissing;
         }

@@ -41,10 +41,22 @@ public:
 
 private:
     void read_brightness(const Scene& scene, Crew& crew);
-    void look_up(const Scene& scene, Crew& crew);
-    void shift_row(const Scene& scene, int y);
+    void look_up(const Scene& scene, const Maps& maps, Crew& crew);
+    void shift_row(const Scene& scene, const Maps& maps, int y);
     void fit_row(const Scene& scene, int y, int same_surface);
     void fit_planes(const Scene& scene, Crew& crew, int same_surface);
+    void run_rounds(const Scene& scene, const Maps& maps, int rounds, Crew& crew);
+
+    /// Calls visit(plane) with the planes of the neighbours that are not too doubtful, as they are at (x, y).
+    template <typename Visit>
+    void visit_planes(const Scene& scene, int x, int y, Visit&& visit) const;
+    /// How much the pictures differ around (x, y) if it shows that plane, 1/256 grey level: the mean over neighbours
+    /// that resemble it in the left picture and its partner in the right one.
+    template <typename Neighbours>
+    int mismatch(const Scene& scene, int x, int y, Slope plane, const Neighbours& neighbours) const;
+    /// The neighbours' plane that is nearest to `winner` and within a pixel of it, or none.
+    Slope nearest_plane(const Scene& scene, int x, int y, std::int32_t winner) const;
+    void choose_row(const Scene& scene, const Maps& maps, int y);
 
     ImageView<std::int16_t> left_, right_;          ///< brightness, 1/16 grey level
     ImageView<std::int16_t> difference_, gradient_; ///< left minus right at the disparity; 64 x grey levels a px

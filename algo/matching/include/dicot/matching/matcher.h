@@ -30,7 +30,7 @@ enum class MatchCost
 struct MatchOptions
 {
     int disparities = 64;  ///< width of the search range, px, 1 .. kMaxDisparities
-    int min_disparity = 0; ///< its start, px, may be negative
+    int min_disparity = 0; ///< its start, px, may be negative; kBest looks beyond it for what is then no match
     MatchMethod method = MatchMethod::kStandard;
     MatchCost cost = MatchCost::kAdCensus;
     int window = 35;         ///< support window, px, odd, 3 .. kMaxWindow
