@@ -13,12 +13,18 @@
 
 namespace dicot::test {
 
-/// Leaves are discs of `radius_mm` on a ring, 60 mm above the soil, which is 500 mm away.
+/// Leaves on a ring, 60 mm above the soil, which is 500 mm away; each hangs down outwards. Seen from above they are
+/// discs of `radius_mm`.
 struct DrawnPlant
 {
     int leaves = 4;
     double radius_mm = 14;
-    double ring_mm = 40;
+    double ring_mm = 60;
+    double slope = 0.5;
+
+    double area_mm2() const { return leaves * kPi * radius_mm * radius_mm * std::sqrt(1 + slope * slope); }
+
+    static constexpr double kPi = 3.14159265358979;
 };
 
 inline std::vector<CloudPoint> drawn_points(const DrawnPlant& plant)
@@ -32,11 +38,13 @@ inline std::vector<CloudPoint> drawn_points(const DrawnPlant& plant)
             double depth = kSoilMm + 40 * y; // seen a little from the side
             Rgb8 colour{95, 70, 50};
             for (int leaf = 0; leaf < plant.leaves; ++leaf) {
-                const double turn = 2 * 3.14159265358979 * leaf / plant.leaves;
-                const double dx = x * kLeafMm - plant.ring_mm * std::cos(turn);
-                const double dy = y * kLeafMm - plant.ring_mm * std::sin(turn);
+                const double turn = 2 * DrawnPlant::kPi * leaf / plant.leaves;
+                const double out_x = std::cos(turn), out_y = std::sin(turn);
+                // z = kLeafMm + slope (out . (x z, y z) - ring): where the ray meets the leaf's plane.
+                const double z = (kLeafMm - plant.slope * plant.ring_mm) / (1 - plant.slope * (out_x * x + out_y * y));
+                const double dx = x * z - plant.ring_mm * out_x, dy = y * z - plant.ring_mm * out_y;
                 if (dx * dx + dy * dy <= plant.radius_mm * plant.radius_mm) {
-                    depth = kLeafMm;
+                    depth = z;
                     colour = {60, 130, 50};
                 }
             }

@@ -107,10 +107,8 @@ TEST_F(Traits, EverySnapshotHasALinePerPlantAndAMissItsReason)
         EXPECT_EQ(row[column("local_time")], noon(static_cast<int>(day)).substr(0, 11) + "12:00:00+02:00");
         EXPECT_EQ(row[column("outcome")], "done");
         EXPECT_EQ(row[column("plant")], "1") << "it is the same plant every day";
-        const double radius = 10.0 + static_cast<double>(day);
-        EXPECT_NEAR(std::stod(row[column("leaf_area_visible_mm2")]), 4 * 3.14159 * radius * radius,
-                    0.15 * 4 * 3.14159 * radius * radius)
-            << day;
+        const double area = test::DrawnPlant{.radius_mm = 10.0 + static_cast<double>(day)}.area_mm2();
+        EXPECT_NEAR(std::stod(row[column("leaf_area_visible_mm2")]), area, 0.15 * area) << day;
         EXPECT_NEAR(std::stod(row[column("leaf_count")]), 4, 0.5);
     }
     EXPECT_EQ(rows[4][column("outcome")], "missed");
@@ -156,9 +154,10 @@ TEST_F(Traits, TheReportHasCurvesAndTheGap)
     const json& area = plant["series"].at(0);
     EXPECT_EQ(area["trait"], "leaf_area_visible_mm2");
     EXPECT_EQ(area["used"], 6);
-    // 4 pi r^2 with r = 10 mm + day: 4 pi 2 r a day.
+    // In the middle of the six days.
+    const double rate = test::DrawnPlant{.radius_mm = 14}.area_mm2() - test::DrawnPlant{.radius_mm = 13}.area_mm2();
     const json& middle = area["curve"].at(area["curve"].size() / 2);
-    EXPECT_NEAR(middle["rate_per_day"][0].get<double>(), 8 * 3.14159 * 13.5, 40);
+    EXPECT_NEAR(middle["rate_per_day"][0].get<double>(), rate, 0.15 * rate);
 }
 
 TEST_F(Traits, ADamagedCloudIsNamedAndTheRestIsDone)
