@@ -56,7 +56,7 @@ TopView top_view(const PlantView& view, const GroundFrame& ground, std::span<con
 /// Joins cells with no more than kGapMm between them.
 void join_cells(const TopView& top, std::span<const std::int32_t> held, Groups& groups)
 {
-    constexpr double kGapMm = 80;
+    constexpr double kGapMm = 100;
     const int reach = std::max(1, static_cast<int>(kGapMm / top.cell_mm));
     for (int y = 0; y < top.height; ++y)
         for (int x = 0; x < top.width; ++x) {
@@ -75,7 +75,7 @@ int number_plants(const TopView& top, std::span<const std::int32_t> held, Groups
                   std::span<std::int32_t> column)
 {
     constexpr int kLeastPoints = 200;
-    constexpr double kLeastShare = 0.1;
+    constexpr double kLeastShare = 0.2;
     std::ranges::fill(size, 0);
     std::ranges::fill(column, 0);
     for (std::size_t cell = 0; cell < held.size(); ++cell) {

@@ -11,14 +11,17 @@
 namespace dicot {
 namespace {
 
-/// Excess green (Woebbecke 1995) by the sum of the channels, so that light and shade are alike; and greener than red,
-/// which withered leaves, wood and soil are not.
-bool is_green(const Rgb8& colour)
+/// Excess green (Woebbecke 1995) by the sum of the channels, so that light and shade are alike, above `percent`; and
+/// greener than red, which withered leaves, wood and soil are not.
+bool is_green(const Rgb8& colour, int percent)
 {
     constexpr int kDark = 24; // of 765: noise has any hue
     const int r = colour.r, g = colour.g, b = colour.b, sum = r + g + b;
-    return sum > kDark && 100 * (2 * g - r - b) > 18 * sum && 100 * (g - r) > 2 * sum;
+    return sum > kDark && 100 * (2 * g - r - b) > percent * sum && 100 * (g - r) > 2 * sum;
 }
+
+/// Waxy leaves are hardly green; they are taken for leaves where a part of the patch clearly is.
+constexpr int kHardlyGreen = 10, kClearlyGreen = 18;
 
 /// How high above the ground the canopy begins. On a lawn the ground is green as well.
 double least_height_mm(const PlantView& view, const GroundFrame& ground)
@@ -31,7 +34,7 @@ double least_height_mm(const PlantView& view, const GroundFrame& ground)
         if (std::fabs(in_ground(ground, point_mm(view, i)).z) > 2 * ground.rms_mm)
             continue;
         ++near;
-        green += is_green(view.cloud.points[i].colour);
+        green += is_green(view.cloud.points[i].colour, kClearlyGreen);
     }
     const bool lawn = green > 0.3 * near;
     return lawn ? 15 + 4 * ground.rms_mm : 3 + 2 * ground.rms_mm;
@@ -51,7 +54,7 @@ public:
     Patches(const PlantView& view, std::span<const std::uint8_t> green, Arena& arena)
         : view_(view), green_(green), groups_(arena.take<std::int32_t>(green.size())),
           size_(arena.take<std::int32_t>(green.size())), confidence_(arena.take<std::int32_t>(green.size())),
-          links_(arena.take<std::int32_t>(green.size()))
+          clearly_(arena.take<std::int32_t>(green.size())), links_(arena.take<std::int32_t>(green.size()))
     {
     }
 
@@ -64,10 +67,12 @@ public:
         });
         std::ranges::fill(size_, 0);
         std::ranges::fill(confidence_, 0);
+        std::ranges::fill(clearly_, 0);
         std::ranges::fill(links_, 0);
         for_each_green([&](int, int, std::int32_t here) {
             ++at(size_, here);
             at(confidence_, here) += point(here).confidence;
+            at(clearly_, here) += is_green(point(here).colour, kClearlyGreen);
             largest_ = std::max(largest_, at(size_, here));
             is_confident_ = is_confident_ || point(here).confidence > 0;
         });
@@ -96,16 +101,17 @@ public:
     bool stays(std::int32_t i)
     {
         constexpr int kLeastLinks = 10;
-        if (at(size_, i) < kSpeck || !was_seen(i))
+        if (at(size_, i) < kSpeck || !was_seen(i) || !is_leafy(i))
             return false;
         return is_large(i) || at(links_, i) >= kLeastLinks || at(confidence_, i) >= kSure * at(size_, i);
     }
 
 private:
-    static constexpr int kSpeck = 60, kGuessed = 42, kSure = 80, kLargeShare = 50;
+    static constexpr int kSpeck = 60, kGuessed = 42, kSure = 80, kClearShare = 2, kLargeShare = 50;
 
+    bool is_leafy(std::int32_t i) { return kClearShare * at(clearly_, i) >= at(size_, i); }
     bool was_seen(std::int32_t i) { return !is_confident_ || at(confidence_, i) >= kGuessed * at(size_, i); }
-    bool is_large(std::int32_t i) { return was_seen(i) && kLargeShare * at(size_, i) >= largest_; }
+    bool is_large(std::int32_t i) { return was_seen(i) && is_leafy(i) && kLargeShare * at(size_, i) >= largest_; }
     const CloudPoint& point(std::int32_t i) const { return view_.cloud.points[static_cast<std::size_t>(i)]; }
     std::int32_t& at(std::span<std::int32_t> of, std::int32_t i)
     {
@@ -131,7 +137,7 @@ private:
     const PlantView& view_;
     std::span<const std::uint8_t> green_;
     Groups groups_;
-    std::span<std::int32_t> size_, confidence_, links_;
+    std::span<std::int32_t> size_, confidence_, clearly_, links_;
     std::int32_t largest_ = 0;
     bool is_confident_ = false; ///< the cloud says at all how sure it is
 };
@@ -173,7 +179,7 @@ void find_green(const PlantView& view, const GroundFrame& ground, std::span<std:
     const std::span<const CloudPoint> points = view.cloud.points;
     const double least = least_height_mm(view, ground);
     for (std::size_t i = 0; i < points.size(); ++i)
-        green[i] = is_green(points[i].colour) && in_ground(ground, point_mm(view, i)).z > least;
+        green[i] = is_green(points[i].colour, kHardlyGreen) && in_ground(ground, point_mm(view, i)).z > least;
     patches.find();
     patches.link();
     for (std::size_t i = 0; i < points.size(); ++i)
