@@ -42,11 +42,7 @@ json no_curves()
     for (const PlantColumn& column : plant_columns())
         traits.push_back(
             {{"key", column.name}, {"name", column.words}, {"unit", column.drawn_unit}, {"scale", column.drawn_units}});
-    return {{"complete", false},
-            {"slots", 0},
-            {"traits", traits},
-            {"plants", json::array()},
-            {"gaps", json::array()}};
+    return {{"complete", false}, {"slots", 0}, {"traits", traits}, {"plants", json::array()}, {"gaps", json::array()}};
 }
 
 json curves_json(const BoardTraits& board, const BoardGrowth& growth)
