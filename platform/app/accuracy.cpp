@@ -11,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -71,6 +72,17 @@ Status check_elsewhere(const std::string& csv, const std::string& folder)
     return {};
 }
 
+/// What was measured has been told; a target without a depth is an input that did not fit all the same.
+Status check_all_measured(const DepthRun& found)
+{
+    const int lost = static_cast<int>(found.readings.size()) - found.measured();
+    if (lost == 0)
+        return {};
+    const auto first = std::ranges::find_if(found.readings, [](const DepthReading& r) { return !r.measured(); });
+    return failure(Fault::kBadData, "%d of %zu targets gave no depth; the first one: %.300s", lost,
+                   found.readings.size(), first->lost.c_str());
+}
+
 Status run(AccuracyWords words)
 {
     if (!words.box.empty())
@@ -105,12 +117,12 @@ Status run(AccuracyWords words)
         if (!words.report.empty())
             report["report"] = words.report;
         std::printf("%s\n", report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-        return {};
+        return check_all_measured(found);
     }
     print_run(found, words.depth);
     if (!words.report.empty())
         std::printf("%s/index.html: the report\n", words.report.c_str());
-    return {};
+    return check_all_measured(found);
 }
 
 } // namespace

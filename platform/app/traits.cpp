@@ -1,6 +1,5 @@
 // dicot traits: what grew in an archive, as tables, curves and pictures.
 #include "commands.h"
-#include "plant/plant_places.h"
 #include "pull/archive_folder.h"
 #include "stop_request.h"
 #include "store/shown.h"
@@ -10,6 +9,7 @@
 #include "traits/traits_json.h"
 #include "traits/traits_plots.h"
 #include "traits/traits_table.h"
+#include "traits/usual_wishes.h"
 
 #include "dicot/os/output_file.h"
 #include "dicot/os/thread_crew.h"
@@ -24,7 +24,6 @@ namespace dicot::app {
 namespace {
 
 constexpr const char* kStandardOutput = "-";
-constexpr std::size_t kShortDigest = 16; ///< of its 64 digits
 
 struct TraitsWords
 {
@@ -43,15 +42,11 @@ struct Report
 
 Result<TraitsWishes> wishes_of(const TraitsWords& words)
 {
-    TraitsWishes wishes;
+    TraitsWishes wishes = TRY(usual_wishes(words.places));
     wishes.query = TRY(query_between(words.since, words.until));
     wishes.timezone = words.timezone;
-    wishes.cache_folder = words.cache.empty() ? usual_cache_folder() : words.cache;
-    if (!words.places.empty()) {
-        wishes.places = TRY(read_plant_places(words.places));
-        wishes.cache_name = "-" + TRY(digest_of_file(words.places)).substr(0, kShortDigest);
-    }
-    wishes.maker = TRY(cache_maker());
+    if (!words.cache.empty())
+        wishes.cache_folder = words.cache;
     wishes.threads = words.threads > 0 ? words.threads : std::min(ThreadCrew::processors(), 2);
     return wishes;
 }

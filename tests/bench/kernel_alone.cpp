@@ -60,6 +60,42 @@ long normalise(const Kernels& kernels, int repeats)
     return kCount;
 }
 
+/// Costs that fall and rise, so that places are won and lost.
+std::vector<std::uint16_t> wavy_costs(int count)
+{
+    std::vector<std::uint16_t> costs;
+    for (int i = 0; i < count; ++i)
+        costs.push_back(static_cast<std::uint16_t>(20000 + i * 7919 % 9973));
+    return costs;
+}
+
+long path_step(const Kernels& kernels, int repeats)
+{
+    const std::vector<std::uint16_t> costs = wavy_costs(kDisparities);
+    std::vector<std::uint16_t> behind = costs, ahead(kDisparities);
+    for (int i = 0; i < repeats; ++i)
+        kernels.path_step(ahead.data(), costs.data(), behind.data(), 20000, {600, 2400}, 0, kDisparities);
+    return kDisparities;
+}
+
+long winners(const Kernels& kernels, int repeats)
+{
+    const std::vector<std::uint16_t> costs = wavy_costs(kPixels * kDisparities);
+    std::vector<Winner> out(kPixels);
+    for (int i = 0; i < repeats; ++i)
+        kernels.winners(out.data(), costs.data(), kPixels, kDisparities);
+    return long{kPixels} * kDisparities;
+}
+
+long right_winners(const Kernels& kernels, int repeats)
+{
+    const std::vector<std::uint16_t> costs = wavy_costs(kPixels * kDisparities);
+    std::vector<std::uint16_t> cost(kPixels + kDisparities - 1), position(cost.size());
+    for (int i = 0; i < repeats; ++i)
+        kernels.right_winners(cost.data(), position.data(), costs.data(), kPixels, kDisparities);
+    return long{kPixels} * kDisparities;
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -75,6 +111,9 @@ int main(int argc, char** argv)
     const auto run = kernel == "aggregate"         ? aggregate
                      : kernel == "support_weights" ? support_weights
                      : kernel == "match_cost"      ? match_cost
+                     : kernel == "path_step"       ? path_step
+                     : kernel == "winners"         ? winners
+                     : kernel == "right_winners"   ? right_winners
                                                    : normalise;
     std::printf("%ld\n", run(*kernels, repeats));
 }

@@ -28,7 +28,7 @@ for arch in arm64 armhf; do
     fi
     "$triple-g++" --sysroot="$sysroot" -std=c++20 -O2 -I"$checkout/algo/kernels/include" \
         -o "$work/alone-$arch" "$checkout/tests/bench/kernel_alone.cpp" "$kernels"
-    for kernel in aggregate support_weights match_cost normalise; do
+    for kernel in aggregate support_weights match_cost normalise path_step winners right_winners; do
         line=$(printf '%-7s%-17s' $arch $kernel)
         for level in neon scalar; do
             # shellcheck disable=SC2086 # the emulator is a command with its words

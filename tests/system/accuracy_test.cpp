@@ -153,7 +153,14 @@ TEST(Accuracy, ATargetWithoutADepthIsNamedAndTheOthersAreMeasured)
     const Walls walls({48, 40});
     const test::Bytes head = test::bytes_of(walls.pairs + "/wall_600_left.ppm");
     walls.folder.write("walls/wall_600_left.ppm", test::Bytes(head.begin(), head.begin() + 400)); // cut short
-    const auto report = report_of(walls.words());
+    const std::string csv = walls.folder.path("table.csv");
+    const ToolRun run = accuracy(walls.words() + " --json -o " + csv);
+    EXPECT_EQ(run.exit_code, 65) << run.output;
+    EXPECT_NE(run.output.find("1 of 2 targets gave no depth"), std::string::npos) << run.output;
+    EXPECT_TRUE(std::filesystem::exists(csv));
+    const std::size_t begin = run.output.find('{');
+    ASSERT_NE(begin, std::string::npos) << run.output;
+    const auto report = nlohmann::json::parse(run.output.substr(begin, run.output.rfind('}') + 1 - begin));
     EXPECT_EQ(report["measured"], 1);
     EXPECT_TRUE(report["targets"][1]["error_mm"].is_null());
     EXPECT_NE(report["targets"][1]["reason"].get<std::string>().find("wall_600_left.ppm"), std::string::npos);

@@ -58,10 +58,11 @@ double predicted_bytes(const Case& size, const std::string& words, const char* w
 }
 
 /// Matches two pictures of noise and compares the peak.
-void compare(const Case& size, int window, int threads, const char* output)
+void compare(const Case& size, int window, int threads, const char* output, const char* method = "standard")
 {
     const test::TempFolder folder;
-    const std::string words = " --window " + std::to_string(window) + " --threads " + std::to_string(threads);
+    const std::string words =
+        " --window " + std::to_string(window) + " --threads " + std::to_string(threads) + " --method " + method;
     const std::string pair = folder.write("left.ppm", test::noise_ppm(size.width, size.height, 1)) + " " +
                              folder.write("right.ppm", test::noise_ppm(size.width, size.height, 2));
     const double predicted = predicted_bytes(size, words, "total_bytes");
@@ -91,6 +92,15 @@ TEST(Memory, ThePredictionHoldsWithinTenPercentForWidePictures)
         return;
     for (const int threads : {1, 2})
         compare(kWide, 5, threads, "map.pfm");
+}
+
+TEST(Memory, ThePredictionHoldsWithinTenPercentForTheOtherMethods)
+{
+    if (!measurable("Memory.ThePredictionHoldsWithinTenPercentForTheOtherMethods"))
+        return;
+    for (const char* method : {"paper", "fast", "best"})
+        for (const int threads : {1, 2})
+            compare(kWebcam, 15, threads, "map.pfm", method);
 }
 
 TEST(Memory, ThePredictionHoldsWithinTenPercentAtTheFullWindow)
@@ -167,16 +177,18 @@ TEST(Memory, TheBudgetsHoldAtTheFullWindow)
 {
     if (!measurable("Memory.TheBudgetsHoldAtTheFullWindow"))
         return;
-    for (const Case& size : {kWebcam, kWide}) {
-        for (const int threads : {1, 2, 4}) {
-            const double bytes =
-                predicted_bytes(size, " --window 35 --dense --threads " + std::to_string(threads), "total_bytes");
-            std::printf("%d x %d x %d, %d threads: %.1f MiB of %.0f\n", size.width, size.height, size.disparities,
-                        threads, bytes / kMiB, size.limit_mib);
-            EXPECT_GT(bytes, 0);
-            EXPECT_LE(bytes, size.limit_mib * kMiB);
-        }
-    }
+    for (const Case& size : {kWebcam, kWide})
+        for (const char* method : {"paper", "fast", "standard", "best"})
+            for (const int threads : {1, 2, 4}) {
+                const double bytes = predicted_bytes(size,
+                                                     std::string(" --window 35 --dense --method ") + method +
+                                                         " --threads " + std::to_string(threads),
+                                                     "total_bytes");
+                std::printf("%d x %d x %d, %s, %d threads: %.1f MiB of %.0f\n", size.width, size.height,
+                            size.disparities, method, threads, bytes / kMiB, size.limit_mib);
+                EXPECT_GT(bytes, 0);
+                EXPECT_LE(bytes, size.limit_mib * kMiB) << method;
+            }
 }
 
 } // namespace

@@ -187,6 +187,25 @@ TEST(Matcher, StandardLeavesHiddenPixelsWithoutAValueAndDenseFillsThemFromBehind
             ASSERT_NE(dense.map().relative.at(x, y), kDispMissing) << x << ", " << y;
 }
 
+TEST(Matcher, ARangeOfOneToThreeDisparitiesIsMatched)
+{
+    const Pair pair = scene(120, 60, 5, 5, 7);
+    for (const MatchMethod method :
+         {MatchMethod::kPaper, MatchMethod::kFast, MatchMethod::kStandard, MatchMethod::kBest})
+        for (const int disparities : {1, 2, 3}) {
+            MatchOptions options = small_options();
+            options.method = method;
+            options.disparities = disparities;
+            options.min_disparity = 5 - disparities / 2;
+            const Matched matched(pair.left_view(), pair.right_view(), options);
+            int found = 0;
+            for (int y = 0; y < 60; ++y)
+                for (int x = 20; x < 120; ++x)
+                    found += std::abs(matched.map().relative.at(x, y) - (disparities / 2) * 256) < 64;
+            EXPECT_GE(found, 60 * 100 * 95 / 100) << static_cast<int>(method) << ", " << disparities;
+        }
+}
+
 TEST(Matcher, MinDisparityMovesTheSearchRangeInBothDirections)
 {
     for (const int shift : {-7, 3}) {

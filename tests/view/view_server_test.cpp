@@ -2,6 +2,7 @@
 #include "store_commands.h"
 
 #include "stop_request.h"
+#include "traits/usual_wishes.h"
 #include "view/view_site.h"
 #include "view/web_server.h"
 
@@ -58,7 +59,7 @@ protected:
     {
         root_ = copy();
         ASSERT_EQ(::setenv("XDG_CACHE_HOME", (root_ + "-cache").c_str(), 1), 0); // what is measured is kept there
-        Result<std::unique_ptr<ViewSite>> opened = ViewSite::open(root_, {});
+        Result<std::unique_ptr<ViewSite>> opened = ViewSite::open(root_, wishes());
         ASSERT_TRUE(opened.ok()) << opened.status().message();
         site_ = std::move(opened).value();
         std::promise<int> told;
@@ -73,6 +74,12 @@ protected:
         (void)::raise(SIGTERM);
         server_.join();
         EXPECT_TRUE(ended_.ok()) << ended_.message();
+    }
+    static app::TraitsWishes wishes()
+    {
+        const Result<app::TraitsWishes> usual = app::usual_wishes("");
+        EXPECT_TRUE(usual.ok()) << usual.status().message();
+        return usual.value();
     }
     std::string get(const std::string& path) const { return said_to(port_, request("GET " + path)); }
 
@@ -190,13 +197,13 @@ TEST_F(ViewServer, DamageIsNamed)
 TEST_F(ViewServer, ACloudAloneIsABoardOfOneSlot)
 {
     const fs::path cloud = snapshots(root_).front() / "cloud.drc";
-    Result<std::unique_ptr<ViewSite>> alone = ViewSite::open(cloud.string(), {});
+    Result<std::unique_ptr<ViewSite>> alone = ViewSite::open(cloud.string(), wishes());
     ASSERT_TRUE(alone.ok());
     const json slots = json::parse(*alone.value()->answer("data/0/slots.json").body);
     EXPECT_EQ(slots["sequence"], json{1});
     EXPECT_EQ(*alone.value()->answer("data/0/1/cloud.drc").body, test::text_of(cloud));
     EXPECT_EQ(alone.value()->answer("data/0/1/left.jpg").status, 200); // made of the cloud
-    EXPECT_FALSE(ViewSite::open(root_ + "/nothing", {}).ok());
+    EXPECT_FALSE(ViewSite::open(root_ + "/nothing", wishes()).ok());
 }
 
 TEST_F(ViewServer, GrowthIsOfEverySlot)

@@ -4,6 +4,7 @@
 #include "column_paths.h"
 #include "cost_rows.h"
 #include "fast_rows.h"
+#include "highlights.h"
 #include "lab.h"
 #include "refine.h"
 #include "scanline.h"
@@ -36,6 +37,7 @@ struct Bench
     RawCosts raw;                    ///< of kBest
     ColumnPaths paths;               ///< of kBest
     SurfaceRefiner refiner;          ///< of kBest
+    Highlights highlights;           ///< of kBest
     std::span<Station> stations;
 };
 

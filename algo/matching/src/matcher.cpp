@@ -48,9 +48,11 @@ void lay_out(Bench& bench, Arena& arena, const MatchOptions& options, int worker
         bench.maps.scratch = take_map<DispQ8>(arena, scene.width, scene.height);
     if (best) {
         bench.columns = arena.take<std::uint8_t>(static_cast<std::size_t>(scene.width));
-        // The refiner works where the rows' tables were: they are over, and begin anew with every match.
+        // What follows the rows works where their tables were, one after the other: those begin anew with every match.
         const std::size_t rows_tables = arena.used();
         bench.refiner.lay_out(arena, scene);
+        arena.rewind(rows_tables);
+        bench.highlights.lay_out(arena, scene);
         arena.rewind(rows_tables);
         scene.right_edges.lay_out(arena, scene.width, scene.height, scene.axis - 1);
         bench.raw.lay_out(arena, scene, ColumnPaths::most_rows_at_once(window));
@@ -214,8 +216,11 @@ MatchOutcome Matcher::match(ImageView<const Rgb8> left, ImageView<const Rgb8> ri
         drop_unmatched(bench.maps);
     if (best)
         bench.refiner.refine(scene, bench.maps, options_.dense, crew);
-    if (best)
+    if (best) {
+        if (!options_.dense)
+            bench.highlights.match(scene, bench.maps, crew);
         drop_farther(bench.maps, scene.farther);
+    }
     if (options_.dense && best) {
         take_majorities(bench.maps, options_.disparities, scene.left, bench.voters, crew);
         fill_along_planes(bench.maps, options_.disparities, scene.left, bench.voters, crew);

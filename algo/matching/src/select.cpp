@@ -8,6 +8,8 @@ namespace {
 
 /// A checked winner must beat its best rival by this part of 255 of the rival's cost.
 constexpr int kLeastConfidence = 10;
+/// A range so narrow may hold nothing but the winner and what lies beside it: no rival then means nothing.
+constexpr int kWithoutRivals = 3;
 
 /// Eq. 15: the vertex of the parabola through three costs, in 1/256 px from the middle one, rounded half up.
 int vertex_q8(int before, int at, int after)
@@ -57,6 +59,8 @@ void Selector::select(const Scene& scene, AggregatedRow costs, bool check, Selec
         // How much worse the best rival is, in parts of 255; a pixel without a rival says nothing of itself.
         const int rival = winner.runner_up == kNoCandidate ? winner.cost : winner.runner_up;
         to.confidence[i] = static_cast<std::uint8_t>(rival > 0 ? (rival - winner.cost) * 255 / rival : 0);
+        if (winner.runner_up == kNoCandidate && scene.disparities <= kWithoutRivals)
+            to.confidence[i] = kLeastConfidence;
 
         const bool agreed =
             !check || (std::abs(right_position_[i + winner.position] - r) <= 1 && to.confidence[i] >= kLeastConfidence);

@@ -350,7 +350,7 @@ struct BladeRange
 BladeRange blade_of(const Sections& sections)
 {
     // Narrower than this is a petiole, or the last of the tip; the tip goes on as it tapers from kTapering to there.
-    constexpr double kNarrow = 0.15, kTapering = 0.35;
+    constexpr double kNarrow = 0.2, kTapering = 0.4;
     int widest = 0;
     for (int i = 1; i < sections.count; ++i)
         if (sections.all[static_cast<std::size_t>(i)].width() > sections.all[static_cast<std::size_t>(widest)].width())

@@ -14,13 +14,12 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::int64_t kFirst = 16;
 constexpr std::int64_t kMore = 4;
 
 } // namespace
 
-GrowthJob::GrowthJob(DeviceFolder board, std::optional<std::int64_t> last)
-    : board_(std::move(board)), last_(last), curves_(no_curves())
+GrowthJob::GrowthJob(DeviceFolder board, const TraitsWishes& wishes)
+    : board_(std::move(board)), wishes_(wishes), curves_(no_curves())
 {
 }
 
@@ -37,18 +36,20 @@ GrowthJob::~GrowthJob()
 void GrowthJob::begin()
 {
     const std::scoped_lock lock(guard_);
-    if (working_ || complete_)
+    if (working_ || !more_wanted_)
         return;
     if (thread_.joinable())
         thread_.join();
     working_ = true;
+    more_wanted_ = false;
+    curves_["complete"] = false;
     thread_ = std::thread([this] { work(); });
 }
 
 void GrowthJob::look_again()
 {
     const std::scoped_lock lock(guard_);
-    complete_ = false;
+    more_wanted_ = true;
 }
 
 json GrowthJob::curves()
@@ -68,30 +69,25 @@ json GrowthJob::all_curves()
 
 void GrowthJob::work()
 {
-    std::int64_t slots = kFirst;
-    while (measure(slots))
-        slots *= kMore;
+    while (measure(slots_))
+        slots_ *= kMore;
     const std::scoped_lock lock(guard_);
     working_ = false;
-    complete_ = true;
     curves_["complete"] = true;
     told_.notify_all();
 }
 
 bool GrowthJob::measure(std::int64_t slots)
 {
-    TraitsWishes wishes;
-    wishes.query.last = std::min(slots, last_.value_or(slots));
-    wishes.cache_folder = usual_cache_folder();
-    wishes.threads = 1; // the other processors are for who looks
+    TraitsWishes wishes = wishes_;
+    wishes.query.last = std::min(slots, wishes_.query.last.value_or(slots));
     json curves;
     std::int64_t seen = 0;
     const Status done = [&]() -> Status {
-        wishes.maker = TRY(cache_maker());
         // What cannot be measured is told where it is looked at.
         const BoardTraits board = TRY(measure_board(board_, wishes, [](const Status&) {}));
         seen = std::ssize(board.slots);
-        curves = curves_json(board, TRY(board_growth(board, {})));
+        curves = curves_json(board, TRY(board_growth(board, wishes.places)));
         return {};
     }();
     const std::scoped_lock lock(guard_);

@@ -1,14 +1,13 @@
 // The growth of a board, measured beside what a person looks at.
 #pragma once
 
-#include "../store/store_words.h"
+#include "../traits/board_traits.h"
 
 #include <nlohmann/json.hpp>
 
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
-#include <optional>
 #include <thread>
 
 namespace dicot::app {
@@ -18,8 +17,7 @@ namespace dicot::app {
 class GrowthJob
 {
 public:
-    /// `last`: only so many slots, the newest.
-    GrowthJob(DeviceFolder board, std::optional<std::int64_t> last);
+    GrowthJob(DeviceFolder board, const TraitsWishes& wishes);
     GrowthJob(const GrowthJob&) = delete;
     GrowthJob& operator=(const GrowthJob&) = delete;
     ~GrowthJob(); ///< waits until as many slots are measured as were begun with, or a StopRequest is asked
@@ -39,12 +37,13 @@ private:
     bool measure(std::int64_t slots);
 
     DeviceFolder board_;
-    std::optional<std::int64_t> last_;
-    std::mutex guard_; ///< what stands below
+    TraitsWishes wishes_;
+    std::int64_t slots_ = 16; ///< the newest that are measured first; of the thread
+    std::mutex guard_;        ///< what stands below
     std::condition_variable told_;
     nlohmann::json curves_;
     bool working_ = false;
-    bool complete_ = false;
+    bool more_wanted_ = true;
     bool ending_ = false;
     std::thread thread_;
 };

@@ -2,6 +2,7 @@
 #include "../commands.h"
 #include "../pull/archive_folder.h"
 #include "../stop_request.h"
+#include "../traits/usual_wishes.h"
 #include "export_site.h"
 #include "view_site.h"
 #include "view_words.h"
@@ -31,7 +32,10 @@ Status run(const ViewWords& words)
 {
     const StopRequest stop;
     const std::string path = TRY(archive_folder(words.path));
-    const std::unique_ptr<ViewSite> site = TRY(ViewSite::open(path, words.last));
+    TraitsWishes wishes = TRY(usual_wishes(words.places));
+    wishes.query.last = words.last;
+    wishes.threads = 1; // the other processors are for who looks
+    const std::unique_ptr<ViewSite> site = TRY(ViewSite::open(path, wishes));
     if (!words.export_folder.empty()) {
         TRY(export_site(*site, words.export_folder));
         std::printf("%s/index.html\n", words.export_folder.c_str());

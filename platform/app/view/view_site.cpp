@@ -75,9 +75,9 @@ Result<CloudOnDisk> cloud_in(const ViewBoard& board, const SlotRow& row)
 
 } // namespace
 
-Result<std::unique_ptr<ViewSite>> ViewSite::open(const std::string& path, std::optional<std::int64_t> last)
+Result<std::unique_ptr<ViewSite>> ViewSite::open(const std::string& path, const TraitsWishes& wishes)
 {
-    std::unique_ptr<ViewSite> site{new ViewSite(path, last)};
+    std::unique_ptr<ViewSite> site{new ViewSite(path, wishes)};
     TRY(site->look());
     return site;
 }
@@ -86,7 +86,7 @@ Result<std::unique_ptr<ViewSite>> ViewSite::open(const std::string& path, std::o
 ViewSite::Board ViewSite::open_folder(const DeviceFolder& folder)
 {
     Board board{{}, folder.device, nullptr, nullptr};
-    Result<ViewBoard> opened = ViewBoard::of_folder(folder, last_);
+    Result<ViewBoard> opened = ViewBoard::of_folder(folder, wishes_.query.last);
     if (!opened.ok()) {
         board.opened = opened.status();
         return board;
@@ -99,7 +99,7 @@ ViewSite::Board ViewSite::open_folder(const DeviceFolder& folder)
     if (board.growth)
         board.growth->look_again();
     else
-        board.growth = std::make_shared<GrowthJob>(folder, last_);
+        board.growth = std::make_shared<GrowthJob>(folder, wishes_);
     return board;
 }
 
@@ -228,7 +228,8 @@ std::shared_ptr<const ViewSite::Seen> ViewSite::seen(const Board& board, const S
     const auto made = std::make_shared<Seen>();
     const Status done = [&]() -> Status {
         const CloudOnDisk cloud = TRY(cloud_in(*board.slots, row));
-        const PlantWork plants = TRY(PlantWork::make(cloud.cloud(), "cloud.drc"));
+        const PlantWork plants =
+            TRY(PlantWork::make(cloud.cloud(), "cloud.drc", wishes_.places, cloud.meta().far_mm.value_or(0)));
         GridPlace place = place_of_its_own(plants.view());
         if (const Result<std::string> left = board.slots->read(row, "left.jpg"); left.ok())
             if (const Result<OwnPicture> picture = OwnPicture::decode(left.value(), "left.jpg"); picture.ok())

@@ -9,7 +9,6 @@
 
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,9 +31,9 @@ std::string_view view_policy();
 class ViewSite
 {
 public:
-    /// `path`: an archive, a store, the folder of one board, or a cloud file. `last`: of each board only so many slots,
-    /// the newest. Errors: boards_of_archive()'s, ViewBoard::of_cloud()'s.
-    static Result<std::unique_ptr<ViewSite>> open(const std::string& path, std::optional<std::int64_t> last);
+    /// `path`: an archive, a store, the folder of one board, or a cloud file. `wishes`: which plants, and of each board
+    /// only so many slots, the newest (query.last). Errors: boards_of_archive()'s, ViewBoard::of_cloud()'s.
+    static Result<std::unique_ptr<ViewSite>> open(const std::string& path, const TraitsWishes& wishes);
 
     /// data/archive.json also looks for what came and went since.
     Answer answer(std::string_view path);
@@ -57,7 +56,7 @@ private:
         Answer plants, leaves, left, disparity;
     };
 
-    ViewSite(std::string path, std::optional<std::int64_t> last) : path_(std::move(path)), last_(last) {}
+    ViewSite(std::string path, const TraitsWishes& wishes) : path_(std::move(path)), wishes_(wishes) {}
     Status look();
     Board open_folder(const DeviceFolder& folder);
     Answer archive();
@@ -67,7 +66,7 @@ private:
     std::shared_ptr<const Seen> seen(const Board& board, const SlotRow& row);
 
     std::string path_;
-    std::optional<std::int64_t> last_;
+    TraitsWishes wishes_;
     bool waits_for_growth_ = false;
     std::mutex looking_; ///< boards_ and what is kept
     std::vector<Board> boards_;

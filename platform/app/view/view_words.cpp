@@ -18,6 +18,10 @@ void add_view_words(CLI::App& program, Command& chosen, const std::function<Stat
     command->add_flag("--no-open", words->no_open, "print the address and open no browser");
     command->add_option("--last", words->last, "the newest slots alone, so many of each board")
         ->transform(slot_number());
+    command
+        ->add_option("--plants", words->places,
+                     "plants by name: CSV with name, min_x_mm .. max_z_mm, boxes in the ground frame")
+        ->type_name("FILE");
     command->add_option("--export", words->export_folder, "write the page and its data as files, and serve nothing")
         ->type_name("DIR");
     command->callback([words, run, &chosen] { chosen = [words, run] { return run(*words); }; });

@@ -14,6 +14,7 @@ namespace dicot::app {
 struct ViewWords
 {
     std::string path;
+    std::string places;        ///< of the plants; empty: they are told apart by the gaps between them
     std::string export_folder; ///< empty: serve
     std::optional<std::int64_t> last;
     int port = 0;
