@@ -1,5 +1,6 @@
 #include "dicot/plant/canopy.h"
 #include "frame.h"
+#include "green.h"
 #include "groups.h"
 
 #include <algorithm>
@@ -9,111 +10,6 @@
 
 namespace dicot {
 namespace {
-
-/// Excess green (Woebbecke 1995) by the sum of the channels, so that light and shade are alike; and greener than red,
-/// which withered leaves, wood and soil are not.
-bool is_green(const Rgb8& colour)
-{
-    constexpr int kDark = 24; // of 765: noise has any hue
-    const int r = colour.r, g = colour.g, b = colour.b, sum = r + g + b;
-    return sum > kDark && 100 * (2 * g - r - b) > 18 * sum && 100 * (g - r) > 2 * sum;
-}
-
-/// How high above the ground the canopy begins. On a lawn the ground is green as well.
-double least_height_mm(const PlantView& view, const GroundFrame& ground)
-{
-    if (ground.kind == GroundFrame::Kind::kNone)
-        return -HUGE_VAL;
-    constexpr std::size_t kStride = 7;
-    int near = 0, green = 0;
-    for (std::size_t i = 0; i < view.cloud.points.size(); i += kStride) {
-        if (std::fabs(in_ground(ground, point_mm(view, i)).z) > 2 * ground.rms_mm)
-            continue;
-        ++near;
-        green += is_green(view.cloud.points[i].colour);
-    }
-    const bool lawn = green > 0.3 * near;
-    return lawn ? 15 + 4 * ground.rms_mm : 3 + 2 * ground.rms_mm;
-}
-
-/// Neighbours in the picture hang together where depth steps by less than 10 px are wide.
-bool hang_together(const CloudPoint& a, const CloudPoint& b, double focal_px)
-{
-    constexpr double kSteep = 10;
-    return std::fabs(double(a.z) - b.z) * focal_px < kSteep * std::min(a.z, b.z);
-}
-
-/// Marks with 1 what is green and above the ground, in patches that are no specks, and that were not guessed:
-/// background beyond the working range that is taken for something near has a mean confidence of 40 of 255, a leaf of
-/// 150.
-void find_green(const PlantView& view, const GroundFrame& ground, std::span<std::uint8_t> green, Arena& arena)
-{
-    constexpr int kSpeck = 60, kGuessed = 56;
-    const std::size_t mark = arena.used();
-    const std::span<const CloudPoint> points = view.cloud.points;
-    const std::span<std::int32_t> parent = arena.take<std::int32_t>(points.size());
-    const std::span<std::int32_t> size = arena.take<std::int32_t>(points.size());
-    const std::span<std::int32_t> confidence = arena.take<std::int32_t>(points.size());
-    const double least = least_height_mm(view, ground);
-    for (std::size_t i = 0; i < points.size(); ++i)
-        green[i] = is_green(points[i].colour) && in_ground(ground, point_mm(view, i)).z > least;
-
-    Groups patches(parent);
-    const auto meet = [&](std::int32_t a, std::int32_t b) {
-        if (a == PlantView::kNoPoint || b == PlantView::kNoPoint)
-            return;
-        const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
-        if (green[i] && green[j] && hang_together(points[i], points[j], view.focal_px))
-            patches.join(a, b);
-    };
-    for (int y = 0; y < view.point.height; ++y)
-        for (int x = 0; x < view.point.width; ++x) {
-            if (x > 0)
-                meet(view.point.at(x - 1, y), view.point.at(x, y));
-            if (y > 0)
-                meet(view.point.at(x, y - 1), view.point.at(x, y));
-        }
-    std::ranges::fill(size, 0);
-    std::ranges::fill(confidence, 0);
-    const auto patch_of = [&](std::size_t i) {
-        return static_cast<std::size_t>(patches.root(static_cast<std::int32_t>(i)));
-    };
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        ++size[patch_of(i)];
-        confidence[patch_of(i)] += points[i].confidence;
-    }
-    const bool known = std::ranges::any_of(points, [](const CloudPoint& point) { return point.confidence > 0; });
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const std::size_t patch = patch_of(i);
-        green[i] = green[i] && size[patch] >= kSpeck && (!known || confidence[patch] >= kGuessed * size[patch]);
-    }
-    arena.rewind(mark);
-}
-
-/// Highlights and spots are not green: a point that hangs together with five green ones of its eight neighbours is
-/// taken in. Straight borders do not grow by it.
-void close_spots(const PlantView& view, std::span<std::uint8_t> green)
-{
-    constexpr int kRounds = 6, kEnough = 6;
-    for (int round = 0; round < kRounds; ++round)
-        for (int y = 1; y + 1 < view.point.height; ++y)
-            for (int x = 1; x + 1 < view.point.width; ++x) {
-                const std::int32_t here = view.point.at(x, y);
-                if (here == PlantView::kNoPoint || green[static_cast<std::size_t>(here)])
-                    continue;
-                int count = 0;
-                for (int v = -1; v <= 1; ++v)
-                    for (int u = -1; u <= 1; ++u) {
-                        const std::int32_t near = view.point.at(x + u, y + v);
-                        if (near != PlantView::kNoPoint && green[static_cast<std::size_t>(near)] &&
-                            hang_together(view.cloud.points[static_cast<std::size_t>(here)],
-                                          view.cloud.points[static_cast<std::size_t>(near)], view.focal_px))
-                            ++count;
-                    }
-                if (count >= kEnough)
-                    green[static_cast<std::size_t>(here)] = 1;
-            }
-}
 
 /// The canopy from above, in square cells.
 struct TopView
@@ -160,7 +56,7 @@ TopView top_view(const PlantView& view, const GroundFrame& ground, std::span<con
 /// Joins cells with no more than kGapMm between them.
 void join_cells(const TopView& top, std::span<const std::int32_t> held, Groups& groups)
 {
-    constexpr double kGapMm = 80;
+    constexpr double kGapMm = 100;
     const int reach = std::max(1, static_cast<int>(kGapMm / top.cell_mm));
     for (int y = 0; y < top.height; ++y)
         for (int x = 0; x < top.width; ++x) {
@@ -179,7 +75,7 @@ int number_plants(const TopView& top, std::span<const std::int32_t> held, Groups
                   std::span<std::int32_t> column)
 {
     constexpr int kLeastPoints = 200;
-    constexpr double kLeastShare = 0.1;
+    constexpr double kLeastShare = 0.2;
     std::ranges::fill(size, 0);
     std::ranges::fill(column, 0);
     for (std::size_t cell = 0; cell < held.size(); ++cell) {
@@ -216,7 +112,6 @@ Canopy find_canopy(const PlantView& view, const GroundFrame& ground, Arena& aren
     if (arena.overrun())
         return canopy;
     find_green(view, ground, canopy.plant, arena);
-    close_spots(view, canopy.plant);
     const TopView top = top_view(view, ground, canopy.plant);
     const std::span<std::int32_t> held = arena.take<std::int32_t>(top.cells());
     const std::span<std::int32_t> parent = arena.take<std::int32_t>(top.cells());

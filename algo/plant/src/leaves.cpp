@@ -6,12 +6,13 @@
 #include "surface.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 
 namespace dicot {
 namespace {
 
 constexpr int kLeastPoints = 120; ///< of a leaf
+constexpr int kLeastShare = 100;  ///< of the points of the plant's largest leaf, one in so many: smaller are crumbs
 
 /// A piece of the surface, before it has a leaf's number.
 struct Blade
@@ -37,6 +38,17 @@ void count_blades(const Surface& surface, const Pieces& pieces, std::span<Blade>
     }
 }
 
+/// What is too small to be a leaf loses its points.
+void drop_crumbs(std::span<Blade> blades)
+{
+    std::array<std::int32_t, UINT8_MAX + 1> largest{};
+    for (const Blade& blade : blades)
+        largest[blade.plant] = std::max(largest[blade.plant], blade.points);
+    for (Blade& blade : blades)
+        if (blade.points < std::max(kLeastPoints, largest[blade.plant] / kLeastShare))
+            blade.points = 0;
+}
+
 /// Plant by plant, from left to right.
 void number_leaves(std::span<Blade> blades, Leaves& leaves)
 {
@@ -46,8 +58,7 @@ void number_leaves(std::span<Blade> blades, Leaves& leaves)
     for (;;) {
         Blade* next = nullptr;
         for (Blade& blade : blades)
-            if (blade.points >= kLeastPoints && blade.leaf == Leaves::kNone &&
-                (next == nullptr || before(blade, *next)))
+            if (blade.points > 0 && blade.leaf == Leaves::kNone && (next == nullptr || before(blade, *next)))
                 next = &blade;
         if (next == nullptr)
             break;
@@ -94,6 +105,7 @@ Result<Leaves> segment_leaves(const PlantView& view, std::span<const PlantBox> b
     if (arena.overrun())
         return too_little();
     count_blades(surface, pieces, blades);
+    drop_crumbs(blades);
     number_leaves(blades, leaves);
     for (std::size_t i = 0; i < surface.cells(); ++i)
         if (surface.cell[i] == Surface::kPoint && pieces.piece[i] != 0)

@@ -16,33 +16,35 @@ constexpr double kAboveMm = 30;  ///< of the bench: no pot is as low, saucers ar
 constexpr double kAcrossMm = 80; ///< of the canopy's middle: half a pot, where the plant is small
 constexpr int kLeast = 150;      ///< points
 
-/// Where the canopy is, from above: its middle and how far its points lie from there.
+/// Where the canopy is, from above: its middle and how far its points lie from there; and how high it is: soil is not
+/// above three quarters of it.
 struct Stand
 {
-    double right_mm = 0, away_mm = 0, reach_mm = 0;
+    double right_mm = 0, away_mm = 0, reach_mm = 0, high_mm = 0;
 };
 
-double middle_of(std::span<double> values)
+double quantile_of(std::span<double> values, double share)
 {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
 }
 
 Stand stand_of(const PlantView& view, const Canopy& canopy, int plant, const GroundFrame& ground,
                std::span<double> values)
 {
-    const auto each = [&](const auto& figure) {
+    const auto each = [&](double share, const auto& figure) {
         std::size_t count = 0;
         for (std::size_t i = 0; i < canopy.plant.size() && count < values.size(); i += 3)
             if (canopy.plant[i] == plant)
                 values[count++] = figure(in_ground(ground, point_mm(view, i)));
-        return count > 0 ? middle_of(values.first(count)) : HUGE_VAL;
+        return count > 0 ? quantile_of(values.first(count), share) : HUGE_VAL;
     };
     Stand stand;
-    stand.right_mm = each([](const Vec3& at) { return at.x; });
-    stand.away_mm = each([](const Vec3& at) { return at.y; });
-    stand.reach_mm = std::max(kAcrossMm, each([&](const Vec3& at) {
+    stand.right_mm = each(0.5, [](const Vec3& at) { return at.x; });
+    stand.away_mm = each(0.5, [](const Vec3& at) { return at.y; });
+    stand.high_mm = each(0.75, [](const Vec3& at) { return at.z; });
+    stand.reach_mm = std::max(kAcrossMm, each(0.5, [&](const Vec3& at) {
                                   const double x = at.x - stand.right_mm, y = at.y - stand.away_mm;
                                   return std::sqrt(x * x + y * y);
                               }));
@@ -94,7 +96,7 @@ void stand_on_soil(const PlantView& view, const Canopy& canopy, GroundFrame& gro
                     right * right + away * away > stand.reach_mm * stand.reach_mm)
                     continue;
                 const double height = flat_height(view, ground, x, y);
-                if (!(height > 0))
+                if (!(height > 0 && height < std::min(stand.high_mm, kBins * kBinMm)))
                     continue;
                 const auto bin = static_cast<std::size_t>(height / kBinMm);
                 ++held[bin];

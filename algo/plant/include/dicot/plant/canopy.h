@@ -23,8 +23,8 @@ struct Canopy
 /// camera's down direction holds a tenth of the points.
 GroundFrame find_ground(const PlantView& view, Arena& arena);
 
-/// Green points above the ground, in groups with gaps of 80 mm between them, numbered from left to right; groups of
-/// less than a tenth of the largest are strays.
+/// Green points above the ground, in groups with gaps of 100 mm between them, numbered from left to right; groups of
+/// less than a fifth of the largest are strays.
 Canopy find_canopy(const PlantView& view, const GroundFrame& ground, Arena& arena);
 
 /// Numbers the canopy by the box that holds a point, the first that does; what stands in none is no canopy.
