@@ -340,11 +340,11 @@ LeafFrame frame_of(std::span<const SurfaceCell> cells, double focal_px, std::spa
     return frame;
 }
 
-/// What stands off one smooth blade is of something else, or smeared between two depths at an edge; it goes last. Returns
-/// how many stay.
+/// What stands off one smooth blade is of something else, or smeared between two depths at an edge; it goes last.
+/// Returns how many stay.
 std::size_t drop_strays(const LeafFrame& frame, std::span<SurfaceCell> cells)
 {
-    constexpr double kStray_mm = 4, kStraySds = 2.5, kUnit_mm = 50;
+    constexpr double kStray_mm = 8, kStraySds = 3, kUnit_mm = 50;
     QuadricSums sums;
     const auto each = [&](const SurfaceCell& cell, const auto& use) {
         const Place place = frame.place(where(cell));
