@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -88,14 +89,17 @@ TEST_F(Plant, has_a_line_and_each_leaf_has_one)
         EXPECT_EQ(leaf.at("hidden"), "0");
         EXPECT_EQ(leaf.at("plant"), "1");
     }
-    double x_mm = 0, y_mm = 0;
-    for (const Row& leaf : leaves) {
-        x_mm += std::stod(leaf.at("centre_x_mm")) / 4;
-        y_mm += std::stod(leaf.at("centre_y_mm")) / 4;
+    const std::array names{"centre_x_mm", "centre_y_mm", "centre_z_mm"};
+    std::array<double, 3> middle_mm{};
+    for (const Row& leaf : leaves)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            middle_mm[axis] += std::stod(leaf.at(names[axis])) / 4;
+    for (const Row& leaf : leaves) { // they stand on a ring
+        double squares = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            squares += std::pow(std::stod(leaf.at(names[axis])) - middle_mm[axis], 2);
+        EXPECT_NEAR(std::sqrt(squares), test::DrawnPlant{}.ring_mm, 2);
     }
-    for (const Row& leaf : leaves) // they stand on a ring
-        EXPECT_NEAR(std::hypot(std::stod(leaf.at("centre_x_mm")) - x_mm, std::stod(leaf.at("centre_y_mm")) - y_mm), 40,
-                    3);
 }
 
 TEST_F(Plant, as_json_is_laid_out_as_plantcv_keeps_results)
