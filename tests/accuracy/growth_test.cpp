@@ -116,6 +116,7 @@ const Grown& grown()
             if (stage == kStages / 2)
                 archive.missed(++number, "2026-05-18T10:00:00Z", "the left camera is gone");
         }
+        std::filesystem::create_directories(DICOT_PICTURES_DIR);
         const test::ToolRun run =
             dicot("traits " + folder.path("archive") + " --cache " + folder.path("cache") + " --json --csv " +
                   folder.path("growth.csv") + " --plot " + std::string{DICOT_PICTURES_DIR} + "/growth");

@@ -50,6 +50,7 @@ std::vector<std::map<std::string, double>> table(const std::string& path)
     std::vector<std::string> names;
     std::vector<std::map<std::string, double>> rows;
     for (std::string line; std::getline(file, line);) {
+        std::erase(line, '\r');
         std::istringstream cells(line);
         std::vector<std::string> row;
         for (std::string cell; std::getline(cells, cell, ',');)

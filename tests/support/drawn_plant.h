@@ -1,4 +1,4 @@
-// A cloud file of a small plant: flat green leaves over brown soil, as two cameras above would see it.
+// A cloud file of a small plant: flat green leaves over brown soil, as two cameras above see it.
 #pragma once
 
 #include "dicot/codec/encode_cloud.h"
@@ -20,7 +20,8 @@ struct DrawnPlant
     int leaves = 4;
     double radius_mm = 14;
     double ring_mm = 60;
-    double slope = 0.5;
+    double slope = 0;
+    double down = 0.8660254; ///< sine of the angle by which the cameras look down
 
     double area_mm2() const { return leaves * kPi * radius_mm * radius_mm * std::sqrt(1 + slope * slope); }
 
@@ -30,20 +31,26 @@ struct DrawnPlant
 inline std::vector<CloudPoint> drawn_points(const DrawnPlant& plant)
 {
     constexpr int kWidth = 320, kHeight = 240;
-    constexpr double kFocal = 400, kSoilMm = 500, kLeafMm = 440, kStepMm = 0.1;
+    constexpr double kFocal = 400, kStepMm = 0.1;
+    const double level = std::sqrt(1 - plant.down * plant.down);
+    const double middle_mm = 500 * level, soil_mm = -500 * plant.down;
     std::vector<CloudPoint> points;
     for (int row = 0; row < kHeight; ++row)
         for (int column = 0; column < kWidth; ++column) {
+            // A ray, one mm forward: right, away and up of the scene.
             const double x = (column - 160.3) / kFocal, y = (row - 119.6) / kFocal;
-            double depth = kSoilMm + 40 * y; // seen a little from the side
+            const double away = level - plant.down * y, up = -plant.down - level * y;
+            double depth = soil_mm / up;
             Rgb8 colour{95, 70, 50};
             for (int leaf = 0; leaf < plant.leaves; ++leaf) {
                 const double turn = 2 * DrawnPlant::kPi * leaf / plant.leaves;
-                const double out_x = std::cos(turn), out_y = std::sin(turn);
-                // z = kLeafMm + slope (out . (x z, y z) - ring): where the ray meets the leaf's plane.
-                const double z = (kLeafMm - plant.slope * plant.ring_mm) / (1 - plant.slope * (out_x * x + out_y * y));
-                const double dx = x * z - plant.ring_mm * out_x, dy = y * z - plant.ring_mm * out_y;
-                if (dx * dx + dy * dy <= plant.radius_mm * plant.radius_mm) {
+                const double out_x = std::cos(turn), out_away = std::sin(turn);
+                // Its plane: up = 60 mm above the soil + slope (ring - distance outwards).
+                const double z = (soil_mm + 60 + plant.slope * (plant.ring_mm + out_away * middle_mm)) /
+                                 (up + plant.slope * (out_x * x + out_away * away));
+                const double dx = x * z - plant.ring_mm * out_x;
+                const double dy = away * z - middle_mm - plant.ring_mm * out_away;
+                if (z > 0 && z < depth && dx * dx + dy * dy <= plant.radius_mm * plant.radius_mm) {
                     depth = z;
                     colour = {60, 130, 50};
                 }

@@ -187,6 +187,21 @@ TEST_F(Traits, WhatIsNoCloudAndMatchesItsDigestIsNamedToo)
     EXPECT_THAT(run.output, AllOf(HasSubstr(folder.filename().string()), HasSubstr("plant 1: 6 snapshots")));
 }
 
+TEST_F(Traits, ASnapshotWithoutAGroundHasNoHeights)
+{
+    const std::string cloud = folder_.path("plumb.drc");
+    test::write_plant(cloud, {.radius_mm = 17, .down = 1}); // plumb from above, where no ground is looked for
+    archive_.done(8, noon(7), cloud);
+    const auto rows = rows_of(traits("--csv").output);
+    ASSERT_EQ(rows.size(), 9U);
+    const auto cell = [&](std::size_t row, const char* name) {
+        return rows[row][static_cast<std::size_t>(std::ranges::find(rows[0], name) - rows[0].begin())];
+    };
+    EXPECT_NE(cell(7, "height_p99_mm"), "");
+    EXPECT_EQ(cell(8, "height_p99_mm"), "");
+    EXPECT_NE(cell(8, "leaf_area_visible_mm2"), "");
+}
+
 TEST_F(Traits, NothingIsMeasuredTwice)
 {
     EXPECT_EQ(report()["boards"][0]["from_cache"], 0);
@@ -197,6 +212,13 @@ TEST_F(Traits, NothingIsMeasuredTwice)
     EXPECT_EQ(anew["boards"][0]["from_cache"], 0);
     anew["boards"][0]["from_cache"] = 6;
     EXPECT_EQ(anew, again) << "the cache gives back every figure as it was";
+}
+
+TEST_F(Traits, TheNumberOfThreadsChangesNothing)
+{
+    const json one = report("--threads 1");
+    fs::remove_all(folder_.path("cache"));
+    EXPECT_EQ(report("--threads 5"), one);
 }
 
 TEST_F(Traits, ACacheThatWasCutOffOrIsNoneIsMadeAgain)

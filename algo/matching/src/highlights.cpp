@@ -22,14 +22,15 @@ constexpr int kStrip = 64;
 /// Columns of the right picture that a strip may have for partners.
 constexpr int kPartners = kStrip + kMaxDisparities - 1;
 
-/// The neighbourhood that settles a pixel, and of it: how many must have been found and lie on the plane (2 of 3), how
-/// near to it (at first: to the median), and how much the brightness must differ in the mean.
+/// The neighbourhood that settles a pixel, of which every second row and column is looked at, and of that: how many
+/// must have been found and lie on the plane (2 of 3 that were asked, and a quarter of all: narrow gaps lie between two
+/// surfaces), how near to it (at first: to the median), and how much the brightness must differ in the mean.
 constexpr int kAround = 12, kStride = 2;
 constexpr int kSideAround = 2 * kAround / kStride + 1;
-constexpr int kFewest = 8;
+constexpr int kFewest = kSideAround * kSideAround / 4;
 constexpr int kMoreBits = 4; // PlaneSums wants 1/4096 px
 constexpr int kNearMedian = 3 << 11, kNearPlane = 3 << 10;
-constexpr int kOtherLight = 5 * 4; // 1/4 grey level
+constexpr int kOtherLight = 10 * 4; // 1/4 grey level
 
 /// Sums over a window around each of `count` pixels of a row, of what term(column, row) gives; the first pixel is at 0.
 template <std::size_t most, typename Term>
@@ -89,7 +90,7 @@ void Highlights::read_row(const Scene& scene, const Maps& maps, int y)
     const CostRow right = scene.right.cost(y);
     for (int x = 0; x < scene.width; ++x) {
         found_.row(y)[x] = kDispMissing;
-        asked_.row(y)[x] = maps.disparity.row(y)[x] == kDispMissing;
+        asked_.row(y)[x] = maps.disparity.row(y)[x] == kDispMissing || maps.confidence.row(y)[x] < kConfidence;
         left_.row(y)[x] = brightness(left, x);
         // Columns outside the search frame are in nobody's window.
         const int in_frame = x + scene.min_disparity;
@@ -100,7 +101,7 @@ void Highlights::read_row(const Scene& scene, const Maps& maps, int y)
 
 void Highlights::correlate_row(const Scene& scene, int y)
 {
-    if (y < kReach || y >= scene.height - kReach)
+    if (y % kStride != 0 || y < kReach || y >= scene.height - kReach)
         return;
     for (int x0 = kReach; x0 < scene.width - kReach; x0 += kStrip) {
         const int count = std::min(kStrip, scene.width - kReach - x0);
@@ -198,7 +199,7 @@ void Highlights::settle_row(const Scene& scene, const Maps& maps, int y) const
             continue;
         std::size_t asked = 0, found = 0;
         std::int64_t differs = 0;
-        for (int dy = -kAround; dy <= kAround; dy += kStride) {
+        for (int dy = y % kStride - kAround; dy <= kAround; dy += kStride) {
             if (y + dy < 0 || y + dy >= scene.height)
                 continue;
             for (int dx = -kAround; dx <= kAround; dx += kStride) {
@@ -231,7 +232,7 @@ void Highlights::settle_row(const Scene& scene, const Maps& maps, int y) const
                 const std::int32_t rise = p.disparity - median;
                 if (std::abs(rise - plane.centre - plane.across * p.dx - plane.down * p.dy) > near)
                     continue;
-                sums.add(1, p.dx, p.dy, rise);
+                sums.add(1, p.dx, p.dy, rise); // of weight 1: its sums have room for 169 points up to 12 px away
                 differs += p.differs;
                 ++on_it;
             }

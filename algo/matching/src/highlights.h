@@ -17,10 +17,11 @@ public:
     /// Memory for pictures of the scene's size. What it holds lives only during match().
     void lay_out(Arena& arena, const Scene& scene);
 
-    /// Gives pixels without a disparity one, with confidence kConfidence and as matched, where all of the above holds.
+    /// Gives pixels without a disparity, or with a confidence below kConfidence, that value with kConfidence and as
+    /// matched where all of the above holds; others stay.
     void match(const Scene& scene, const Maps& maps, Crew& crew);
 
-    static constexpr std::uint8_t kConfidence = 32;
+    static constexpr std::uint8_t kConfidence = 48;
 
 private:
     void read_row(const Scene& scene, const Maps& maps, int y);
@@ -29,9 +30,9 @@ private:
     void settle_row(const Scene& scene, const Maps& maps, int y) const;
 
     ImageView<std::uint8_t> left_, right_; ///< brightness, grey levels
-    ImageView<std::uint8_t> asked_;        ///< 1: without a disparity
+    ImageView<std::uint8_t> asked_;        ///< 1: without a disparity that is believed
     ImageView<std::uint8_t> differs_;      ///< mean brightness of both windows, 1/4 grey level apart
-    ImageView<DispQ8> found_;              ///< best correlation; kDispMissing where none is good
+    ImageView<DispQ8> found_;              ///< best correlation, of even rows; kDispMissing where none is good
 };
 
 } // namespace dicot::matching

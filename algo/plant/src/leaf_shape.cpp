@@ -2,6 +2,7 @@
 
 #include "parabola.h"
 #include "principal_axes.h"
+#include "quadric.h"
 
 #include <algorithm>
 #include <array>
@@ -339,6 +340,26 @@ LeafFrame frame_of(std::span<const SurfaceCell> cells, double focal_px, std::spa
     return frame;
 }
 
+/// What stands off one smooth blade is of something else, or smeared between two depths at an edge; it goes last.
+/// Returns how many stay.
+std::size_t drop_strays(const LeafFrame& frame, std::span<SurfaceCell> cells)
+{
+    constexpr double kStray_mm = 8, kStraySds = 3, kUnit_mm = 50;
+    QuadricSums sums;
+    const auto each = [&](const SurfaceCell& cell, const auto& use) {
+        const Place place = frame.place(where(cell));
+        return use(double{place.along} / kUnit_mm, double{place.across} / kUnit_mm, double{place.off});
+    };
+    for (const SurfaceCell& cell : cells)
+        each(cell, [&](double x, double y, double off) { sums.add(x, y, off); });
+    const Quadric blade = sums.surface();
+    const double limit = std::max(kStray_mm, kStraySds * std::sqrt(sums.leftover() / sums.count()));
+    const auto rest = std::partition(cells.begin(), cells.end(), [&](const SurfaceCell& cell) {
+        return each(cell, [&](double x, double y, double off) { return std::fabs(off - blade(x, y)) <= limit; });
+    });
+    return static_cast<std::size_t>(rest - cells.begin());
+}
+
 /// From the widest section outwards to where the blade has run out.
 struct BladeRange
 {
@@ -382,6 +403,14 @@ LeafShape leaf_shape(std::span<SurfaceCell> cells, double focal_px, std::span<Pl
     LeafShape shape;
     LeafFrame& frame = shape.frame;
     frame = frame_of(cells, focal_px, places);
+    for (int pass = 0; pass < 3; ++pass) { // each time the others tell better
+        const std::size_t count = drop_strays(frame, cells);
+        if (count == cells.size() || count < kFewestCells)
+            break;
+        cells = cells.first(count);
+        places = places.first(count);
+        frame = frame_of(cells, focal_px, places);
+    }
     for (int pass = 0; pass < 2; ++pass) { // a petiole turns the frame
         const BladeRange blade = blade_of(sections_of(places, spacing_mm(frame.centre, frame.along, focal_px)));
         const auto rest = std::partition(

@@ -115,6 +115,12 @@ private:
     double step_mm_;
 };
 
+/// The step from surface to surface hides as many cells from the right camera as their disparities differ by: focal *
+/// baseline * step / (near * far). The baseline is not known here; what stands at a distance is seen well with an
+/// eighth of it. Two cells more are holes.
+constexpr double kBaselineShare = 0.125;
+constexpr double kHole = 2;
+
 /// Cells without a point between two points of a row belong to the farther of the two, which is what the right camera
 /// does not see behind the nearer one; or to the leaf that both are of.
 void find_gaps(const PlantView& view, const Smoother& smoother, std::span<LeafGaps> gaps)
@@ -133,7 +139,13 @@ void find_gaps(const PlantView& view, const Smoother& smoother, std::span<LeafGa
                 const int farther = smoother.z_mm(before) >= smoother.z_mm(point) ? left : right;
                 if (farther != Leaves::kNone) {
                     LeafGaps& gap = gaps[static_cast<std::size_t>(farther - 1)];
-                    (left == right ? gap.inside_cells : gap.beside_cells) += static_cast<float>(missing);
+                    const double near = std::min(smoother.z_mm(before), smoother.z_mm(point));
+                    const double step = std::fabs(smoother.z_mm(before) - smoother.z_mm(point));
+                    const double hidden = kHole + kBaselineShare * view.focal_px * step / near;
+                    if (left == right)
+                        gap.inside_cells += static_cast<float>(missing);
+                    else
+                        gap.beside_cells += static_cast<float>(std::min<double>(missing, hidden));
                 }
             }
             last = column;

@@ -26,28 +26,46 @@ void QuadricSums::add(const QuadricSums& other)
     squares_ += other.squares_;
 }
 
-double QuadricSums::leftover() const
+QuadricSums::Factors QuadricSums::factors() const
 {
-    // Cholesky; a little weight on the diagonal keeps a patch on a line solvable.
+    // A little weight on the diagonal keeps a patch on a line solvable.
     const double ridge = 1e-6 * std::max(products_[0], 1.0);
-    double lower[kTerms][kTerms] = {};
-    double explained = 0;
-    double solved[kTerms] = {};
+    Factors f;
     const double* product = products_;
     for (std::size_t i = 0; i < kTerms; ++i) {
         for (std::size_t j = 0; j <= i; ++j) {
             double left = *product++ + (i == j ? ridge : 0);
             for (std::size_t k = 0; k < j; ++k)
-                left -= lower[i][k] * lower[j][k];
-            lower[i][j] = i == j ? std::sqrt(std::max(left, ridge)) : left / lower[j][j];
+                left -= f.lower[i][k] * f.lower[j][k];
+            f.lower[i][j] = i == j ? std::sqrt(std::max(left, ridge)) : left / f.lower[j][j];
         }
         double left = right_[i];
         for (std::size_t k = 0; k < i; ++k)
-            left -= lower[i][k] * solved[k];
-        solved[i] = left / lower[i][i];
-        explained += solved[i] * solved[i];
+            left -= f.lower[i][k] * f.solved[k];
+        f.solved[i] = left / f.lower[i][i];
     }
+    return f;
+}
+
+double QuadricSums::leftover() const
+{
+    double explained = 0;
+    for (const double part : factors().solved)
+        explained += part * part;
     return std::max(squares_ - explained, 0.0);
+}
+
+Quadric QuadricSums::surface() const
+{
+    const Factors f = factors();
+    Quadric found;
+    for (std::size_t i = kTerms; i-- > 0;) {
+        double left = f.solved[i];
+        for (std::size_t k = i + 1; k < kTerms; ++k)
+            left -= f.lower[k][i] * found.factor[k];
+        found.factor[i] = left / f.lower[i][i];
+    }
+    return found;
 }
 
 double misfit(const QuadricSums& a, const QuadricSums& b)

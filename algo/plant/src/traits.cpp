@@ -106,7 +106,7 @@ void measure_leaf(const PlantView& view, const Leaves& leaves, const LeafSurface
 
     const double cell_mm2 = shape.area_mm2 / double(cells.size());
     const double beside = gaps.beside_cells * cell_mm2;
-    const double area = shape.area_mm2 + kBesideShare * beside;
+    const double area = shape.area_mm2 + beside;
     const double scale = gaps.noise_mm / shape.frame.centre.z; // z wrong as a whole: everything is larger or smaller
     const double two = std::numbers::sqrt2;
     // Both ends, each off by a cell and by the noise of z; the scale; what a tape would do otherwise.
@@ -117,8 +117,8 @@ void measure_leaf(const PlantView& view, const Leaves& leaves, const LeafSurface
     leaf.length_mm = {shape.length_mm, sd_along(shape.length_mm, shape.along_spacing_mm, shape.frame.along)};
     leaf.width_mm = {shape.width_mm, sd_along(shape.width_mm, shape.across_spacing_mm, shape.frame.across)};
     const double rim = shape.length_mm * std::max(shape.along_spacing_mm, shape.across_spacing_mm);
-    leaf.area_mm2 = {area, root_of_squares(root_of_squares(2 * scale * area, rim, seen.unsure * area / 4),
-                                           (1 - kBesideShare) * beside, kFlattenedSd * area)};
+    leaf.area_mm2 = {area, root_of_squares(root_of_squares(2 * scale * area, rim, seen.unsure * area / 4), beside / 3,
+                                           kFlattenedSd * area)};
 
     const double upright = std::min(1.0, dot(shape.frame.normal, up));
     const double tilt = root_of_squares(two * gaps.noise_mm / std::max(1.0, shape.width_mm),

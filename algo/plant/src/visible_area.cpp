@@ -15,7 +15,7 @@ Measured visible_area(const PlantView& view, const Leaves& leaves, const LeafSur
         if (leaves.plant_of_leaf[static_cast<std::size_t>(leaf - 1)] != plant)
             continue;
         const LeafGaps& gaps = surfaces.gaps[static_cast<std::size_t>(leaf - 1)];
-        missing += gaps.inside_cells + kBesideShare * gaps.beside_cells;
+        missing += gaps.inside_cells + gaps.beside_cells;
         for (const SurfaceCell& cell : surfaces.blade_of(leaf)) {
             const double side_mm = cell.z / view.focal_px;
             const double steepness = cell.area_mm2 / (side_mm * side_mm);

@@ -74,6 +74,19 @@ LeafTraits leaf_from(const json& one)
     return leaf;
 }
 
+/// Without a ground nobody knows which way is up: such figures are not to stand in a curve beside true ones.
+void forget_upright(SnapshotTraits& traits)
+{
+    constexpr Measured kUnknown{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+    for (PlantSeen& seen : traits.plants)
+        for (const auto figure :
+             {&PlantTraits::height_max_mm, &PlantTraits::height_p99_mm, &PlantTraits::height_top10_mean_mm,
+              &PlantTraits::projected_area_mm2, &PlantTraits::inclination_mean_deg})
+            seen.traits.*figure = kUnknown;
+    for (LeafTraits& leaf : traits.leaves)
+        leaf.inclination_deg = leaf.azimuth_deg = kUnknown;
+}
+
 } // namespace
 
 Result<SnapshotTraits> SnapshotTraits::read(const std::string& path, std::span<const PlantPlace> places)
@@ -87,6 +100,8 @@ Result<SnapshotTraits> SnapshotTraits::read(const std::string& path, std::span<c
     for (std::size_t i = 0; i < stands.size(); ++i)
         traits.plants.push_back({work.traits().plants[i], stands[i]});
     traits.leaves.assign(work.traits().leaves.begin(), work.traits().leaves.end());
+    if (!traits.ground_known)
+        forget_upright(traits);
     return traits;
 }
 
