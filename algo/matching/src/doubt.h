@@ -10,7 +10,7 @@ namespace dicot::matching {
 /// Of which nobody can say how good it is.
 inline constexpr std::int16_t kHopeless = INT16_MAX;
 /// With so much doubt_of_value() there is no value. In 1/256, as all doubt.
-inline constexpr int kMostDoubt = -1325;
+inline constexpr int kMostDoubt = -1318;
 /// Nobody takes a plane with more doubt from a neighbour (without doubt_of_winner()).
 inline constexpr int kDoubtfulPlane = -400;
 
