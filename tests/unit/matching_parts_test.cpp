@@ -121,10 +121,16 @@ TEST(Doubt, GrowsWithWhatSpeaksAgainst)
     EXPECT_GT(doubt_of_plane(90, 100, 1024), doubt_of_plane(90, 100, 0));
     EXPECT_GT(doubt_of_winner(512, 50), doubt_of_winner(0, 50));
     EXPECT_GT(doubt_of_winner(0, 5), doubt_of_winner(0, 50));
-    EXPECT_LT(confidence_of(-1500), confidence_of(-2500));
-    EXPECT_EQ(confidence_of(kMostDoubt), 0);
-    EXPECT_EQ(confidence_of(kMostDoubt - kRange), 255);
-    EXPECT_EQ(confidence_of(kHopeless + doubt_of_winner(0, 255)), 0);
+}
+
+TEST(Confidence, FallsWithDoubtAndWithDistance)
+{
+    constexpr int kSure = -2500, kTop = 160;
+    EXPECT_LT(confidence_of(kSure + 256, 100, kTop), confidence_of(kSure, 100, kTop));
+    EXPECT_EQ(confidence_of(kSure, 50, kTop), confidence_of(kSure + 3 * 256, 100, kTop)); // twice as far
+    EXPECT_EQ(confidence_of(kSure, 50, kTop), confidence_of(kSure, 100, 2 * kTop));
+    EXPECT_EQ(confidence_of(-14 * 256, kTop, kTop), 255);
+    EXPECT_EQ(confidence_of(kHopeless, 0, kTop), 1);
 }
 
 } // namespace

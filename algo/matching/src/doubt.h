@@ -9,9 +9,8 @@ namespace dicot::matching {
 
 /// Of which nobody can say how good it is.
 inline constexpr std::int16_t kHopeless = INT16_MAX;
-/// With more doubt there is no value, and with kRange less there is none. In 1/256, as all doubt.
-inline constexpr int kMostDoubt = -760;
-inline constexpr int kRange = 3140;
+/// With so much doubt there is no value. In 1/256, as all doubt.
+inline constexpr int kMostDoubt = -820;
 /// Nobody takes a plane with more doubt from a neighbour (without doubt_of_winner()).
 inline constexpr int kDoubtfulPlane = kMostDoubt + 400;
 
@@ -54,9 +53,18 @@ inline int doubt_of_winner(int moved, int margin)
     return (away * kMovedShare - log2_q8(static_cast<std::uint64_t>(margin + 1)) * kMarginShare) / 64;
 }
 
-inline std::uint8_t confidence_of(int doubt)
+/// What a neighbour counts, at most, that has no value or is of another surface.
+inline constexpr int kDoubtOfOthers = kMostDoubt + 384;
+
+/// Confidence is about depth: a pixel of disparity is the more of it the farther the surface, with the square of the
+/// distance. `doubt` is the mean of the neighbours', `disparity` and the `top` of the range have the same unit.
+inline std::uint8_t confidence_of(int doubt, std::int64_t disparity, std::int64_t top)
 {
-    return static_cast<std::uint8_t>(std::clamp((kMostDoubt - doubt) * 255 / kRange, 0, 255));
+    constexpr int kFarShare = 3; // twice as far is as bad as three times 256 more doubt
+    constexpr int kSurest = -14 * 256, kRange = 18 * 256;
+    const int away = log2_q8(static_cast<std::uint64_t>(top)) -
+                     log2_q8(static_cast<std::uint64_t>(std::max<std::int64_t>(disparity, 1)));
+    return static_cast<std::uint8_t>(std::clamp(255 - (doubt + kFarShare * away - kSurest) * 255 / kRange, 1, 255));
 }
 
 } // namespace dicot::matching

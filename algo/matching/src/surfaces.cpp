@@ -42,6 +42,8 @@ constexpr int kFirstPartner = 3;
 /// Neighbours of the shift: a square of 9, every pixel; of the planes: 17, every second one.
 constexpr int kShiftReach = 4, kShiftStride = 1;
 constexpr int kFitReach = SurfaceRefiner::kReach, kFitStride = 2;
+/// Of the confidence: a square of 9, every second one.
+constexpr int kRateReach = 4, kRateStride = 2;
 
 /// Catmull and Rom's cubic through four values, `t` of kSlopeBits fraction bits from the second to the third.
 int cubic(const std::int16_t* p, int t)
@@ -332,26 +334,59 @@ void SurfaceRefiner::refine(const Scene& scene, const Maps& maps, bool dense, Cr
         std::swap(slopes_, next_);
         run_rounds(scene, maps, kRoundsAfterChoice, crew);
     }
+    crew.run(scene.height, [&](int y) { settle_row(scene, maps, y, dense); });
+    crew.run(scene.height, [&](int y) { rate_row(scene, maps, y, dense); });
+}
+
+void SurfaceRefiner::settle_row(const Scene& scene, const Maps& maps, int y, bool dense)
+{
+    constexpr int kFewerBits = kSlopeBits - kDispFractionBits;
     const int most = (scene.disparities - 1) << kDispFractionBits;
-    crew.run(scene.height, [&](int y) {
-        for (int x = 0; x < scene.width; ++x) {
-            const std::int32_t d = slopes_.row(y)[x].disparity;
-            DispQ8& was = maps.disparity.row(y)[x];
-            std::uint8_t& confidence = maps.confidence.row(y)[x];
-            if (d == kNoSlope) {
-                was = kDispMissing;
-                confidence = 0;
-                continue;
-            }
-            const int is = std::clamp((d + (1 << (kMoreBits - 1))) >> kMoreBits, 0, most);
-            const std::uint8_t sure = confidence_of(doubt_.row(y)[x] + doubt_of_winner(std::abs(is - was), confidence));
-            if (!dense || std::abs(is - was) <= kFarthestWhenDense)
-                was = static_cast<DispQ8>(is);
-            confidence = dense ? std::max<std::uint8_t>(sure, 1) : sure;
-            if (!dense && sure == 0)
-                was = kDispMissing;
+    for (int x = 0; x < scene.width; ++x) {
+        const std::int32_t d = slopes_.row(y)[x].disparity;
+        DispQ8& was = maps.disparity.row(y)[x];
+        std::int16_t& doubt = doubt_.row(y)[x];
+        if (d == kNoSlope) {
+            was = kDispMissing;
+            doubt = kHopeless;
+            continue;
         }
-    });
+        const int is = std::clamp((d + (1 << (kFewerBits - 1))) >> kFewerBits, 0, most);
+        const int moved = std::abs(is - was);
+        doubt = static_cast<std::int16_t>(
+            std::min<int>(doubt + doubt_of_winner(moved, maps.confidence.row(y)[x]), kHopeless));
+        if (!dense && doubt >= kMostDoubt)
+            was = kDispMissing;
+        else if (!dense || moved <= kFarthestWhenDense)
+            was = static_cast<DispQ8>(is);
+    }
+}
+
+void SurfaceRefiner::rate_row(const Scene& scene, const Maps& maps, int y, bool dense) const
+{
+    for (int x = 0; x < scene.width; ++x) {
+        std::uint8_t& confidence = maps.confidence.row(y)[x];
+        const Slope own = slopes_.row(y)[x];
+        if (maps.disparity.row(y)[x] == kDispMissing || doubt_.row(y)[x] >= kMostDoubt) {
+            confidence = dense && own.disparity != kNoSlope ? 1 : 0;
+            continue;
+        }
+        int sum = 0, count = 0;
+        for (int dy = -kRateReach; dy <= kRateReach; dy += kRateStride) {
+            for (int dx = -kRateReach; dx <= kRateReach; dx += kRateStride) {
+                ++count;
+                sum += kDoubtOfOthers;
+                if (x + dx < 0 || x + dx >= scene.width || y + dy < 0 || y + dy >= scene.height)
+                    continue;
+                const std::int32_t there = slopes_.row(y + dy)[x + dx].disparity;
+                const std::int32_t plane = own.disparity + own.across * dx + own.down * dy;
+                if (there != kNoSlope && std::abs(there - plane) <= kSameSurface)
+                    sum += std::min<int>(doubt_.row(y + dy)[x + dx], kDoubtOfOthers) - kDoubtOfOthers;
+            }
+        }
+        const int top = (scene.min_disparity + scene.disparities) << kSlopeBits;
+        confidence = confidence_of(sum / count, (scene.min_disparity << kSlopeBits) + own.disparity, top);
+    }
 }
 
 } // namespace dicot::matching

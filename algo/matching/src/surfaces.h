@@ -34,9 +34,10 @@ public:
     /// Memory for pictures of the scene's size. What it holds lives only during refine().
     void lay_out(Arena& arena, const Scene& scene);
 
-    /// Moves every disparity that is not missing and gives it a confidence: 255 where the pictures agree, there is
-    /// texture to tell, and the neighbours lie on the same plane. Without `dense`, what deserves none loses its
-    /// disparity; with it, nothing does, and nothing moves by more than half a pixel.
+    /// Moves every disparity that is not missing and gives it a confidence: high where the pictures agree, there
+    /// is texture to tell, the neighbours lie on the same plane and are as sure, and the surface is near. Without
+    /// `dense`, what deserves none loses its disparity; with it, nothing does, and nothing moves by more than half a
+    /// pixel.
     void refine(const Scene& scene, const Maps& maps, bool dense, Crew& crew);
 
 private:
@@ -57,6 +58,9 @@ private:
     /// The neighbours' plane that is nearest to `winner` and within a pixel of it, or none.
     Slope nearest_plane(const Scene& scene, int x, int y, std::int32_t winner) const;
     void choose_row(const Scene& scene, const Maps& maps, int y);
+    /// Writes the disparities, and takes those away that deserve none.
+    void settle_row(const Scene& scene, const Maps& maps, int y, bool dense);
+    void rate_row(const Scene& scene, const Maps& maps, int y, bool dense) const;
 
     ImageView<std::int16_t> left_, right_;          ///< brightness, 1/16 grey level
     ImageView<std::int16_t> difference_, gradient_; ///< left minus right at the disparity; 64 x grey levels a px
