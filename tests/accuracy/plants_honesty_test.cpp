@@ -97,7 +97,7 @@ TEST(PlantHonesty, TheLeastCertainAreTheMostWrong)
     print_sparsified("all surfaces, mean error up to 10 mm", judged(Measure::kCapped, surface));
     // Aimed at: 1.5. One that knew the true error of the 9 x 9 neighbours would reach 1.31 by this measure and 1.5 by
     // the other two, so the error is capped.
-    EXPECT_LE(capped.ratio(), 1.95);
+    EXPECT_LE(capped.ratio(), 1.7);
 }
 
 /// The confidence that nine of ten leaf pixels within 3 mm reach.

@@ -9,10 +9,10 @@ namespace dicot::matching {
 
 /// Of which nobody can say how good it is.
 inline constexpr std::int16_t kHopeless = INT16_MAX;
-/// With so much doubt there is no value. In 1/256, as all doubt.
-inline constexpr int kMostDoubt = -820;
+/// With so much doubt_of_value() there is no value. In 1/256, as all doubt.
+inline constexpr int kMostDoubt = -1318;
 /// Nobody takes a plane with more doubt from a neighbour (without doubt_of_winner()).
-inline constexpr int kDoubtfulPlane = kMostDoubt + 400;
+inline constexpr int kDoubtfulPlane = -400;
 
 /// log2, 8 fraction bits, straight between powers of two; 0 for 0.
 inline int log2_q8(std::uint64_t x)
@@ -53,8 +53,16 @@ inline int doubt_of_winner(int moved, int margin)
     return (away * kMovedShare - log2_q8(static_cast<std::uint64_t>(margin + 1)) * kMarginShare) / 64;
 }
 
+/// Decides whether there is a value: `least` is the least doubt of the neighbours on the plane. A plane of `slope`,
+/// 1/4096 px a px, is seen by fewer neighbours, and less evenly, than one that is as true and faces the cameras.
+inline int doubt_of_value(int own, int least, int slope)
+{
+    constexpr int kSteep = 4096 / 2, kSlopeShare = 4;
+    return (own + least) / 2 - std::min(slope, kSteep) * kSlopeShare * 256 / 4096;
+}
+
 /// What a neighbour counts, at most, that has no value or is of another surface.
-inline constexpr int kDoubtOfOthers = kMostDoubt + 384;
+inline constexpr int kDoubtOfOthers = -430;
 
 /// Confidence is about depth: a pixel of disparity is the more of it the farther the surface, with the square of the
 /// distance. `doubt` is the mean of the neighbours', `disparity` and the `top` of the range have the same unit.

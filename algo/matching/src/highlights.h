@@ -21,7 +21,7 @@ public:
     /// matched where all of the above holds; others stay.
     void match(const Scene& scene, const Maps& maps, Crew& crew);
 
-    static constexpr std::uint8_t kConfidence = 48;
+    static constexpr std::uint8_t kConfidence = 64;
 
 private:
     void read_row(const Scene& scene, const Maps& maps, int y);

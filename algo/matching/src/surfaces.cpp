@@ -355,11 +355,19 @@ void SurfaceRefiner::settle_row(const Scene& scene, const Maps& maps, int y, boo
         const int moved = std::abs(is - was);
         doubt = static_cast<std::int16_t>(
             std::min<int>(doubt + doubt_of_winner(moved, maps.confidence.row(y)[x]), kHopeless));
-        if (!dense && doubt >= kMostDoubt)
-            was = kDispMissing;
-        else if (!dense || moved <= kFarthestWhenDense)
+        if (!dense || moved <= kFarthestWhenDense)
             was = static_cast<DispQ8>(is);
     }
+}
+
+int SurfaceRefiner::doubt_on_plane(const Scene& scene, int x, int y, int dx, int dy) const
+{
+    if (x + dx < 0 || x + dx >= scene.width || y + dy < 0 || y + dy >= scene.height)
+        return kHopeless;
+    const Slope own = slopes_.row(y)[x];
+    const std::int32_t there = slopes_.row(y + dy)[x + dx].disparity;
+    const std::int32_t plane = own.disparity + own.across * dx + own.down * dy;
+    return there != kNoSlope && std::abs(there - plane) <= kSameSurface ? doubt_.row(y + dy)[x + dx] : kHopeless;
 }
 
 void SurfaceRefiner::rate_row(const Scene& scene, const Maps& maps, int y, bool dense) const
@@ -367,21 +375,25 @@ void SurfaceRefiner::rate_row(const Scene& scene, const Maps& maps, int y, bool 
     for (int x = 0; x < scene.width; ++x) {
         std::uint8_t& confidence = maps.confidence.row(y)[x];
         const Slope own = slopes_.row(y)[x];
-        if (maps.disparity.row(y)[x] == kDispMissing || doubt_.row(y)[x] >= kMostDoubt) {
-            confidence = dense && own.disparity != kNoSlope ? 1 : 0;
+        confidence = 0;
+        if (own.disparity == kNoSlope)
+            continue;
+        int least = kHopeless;
+        for (int dy = -1; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx)
+                least = std::min(least, doubt_on_plane(scene, x, y, dx, dy));
+        if (doubt_of_value(doubt_.row(y)[x], least, std::abs(own.across) + std::abs(own.down)) >= kMostDoubt) {
+            if (dense)
+                confidence = 1;
+            else
+                maps.disparity.row(y)[x] = kDispMissing;
             continue;
         }
         int sum = 0, count = 0;
         for (int dy = -kRateReach; dy <= kRateReach; dy += kRateStride) {
             for (int dx = -kRateReach; dx <= kRateReach; dx += kRateStride) {
+                sum += std::min(doubt_on_plane(scene, x, y, dx, dy), kDoubtOfOthers);
                 ++count;
-                sum += kDoubtOfOthers;
-                if (x + dx < 0 || x + dx >= scene.width || y + dy < 0 || y + dy >= scene.height)
-                    continue;
-                const std::int32_t there = slopes_.row(y + dy)[x + dx].disparity;
-                const std::int32_t plane = own.disparity + own.across * dx + own.down * dy;
-                if (there != kNoSlope && std::abs(there - plane) <= kSameSurface)
-                    sum += std::min<int>(doubt_.row(y + dy)[x + dx], kDoubtOfOthers) - kDoubtOfOthers;
             }
         }
         const int top = (scene.min_disparity + scene.disparities) << kSlopeBits;

@@ -58,8 +58,11 @@ private:
     /// The neighbours' plane that is nearest to `winner` and within a pixel of it, or none.
     Slope nearest_plane(const Scene& scene, int x, int y, std::int32_t winner) const;
     void choose_row(const Scene& scene, const Maps& maps, int y);
-    /// Writes the disparities, and takes those away that deserve none.
+    /// Writes the disparities, and adds what speaks against the winner to the doubt.
     void settle_row(const Scene& scene, const Maps& maps, int y, bool dense);
+    /// The doubt of a neighbour on the same plane as (x, y); kHopeless of others.
+    int doubt_on_plane(const Scene& scene, int x, int y, int dx, int dy) const;
+    /// Takes the disparities away that deserve none, and gives the others their confidence.
     void rate_row(const Scene& scene, const Maps& maps, int y, bool dense) const;
 
     ImageView<std::int16_t> left_, right_;          ///< brightness, 1/16 grey level
