@@ -214,7 +214,7 @@ TEST(PlantHonesty, WhatCannotBeMatchedHasNoValueRatherThanAGuess)
     for (const Place* place : {&blank, &pot, &bright})
         EXPECT_LE(place->percent(place->ours_guessed), 10) << place->name;
     EXPECT_LE(beyond.percent(beyond.ours_guessed), 10);
-    EXPECT_LE(hidden.percent(hidden.ours_guessed), 13); // aimed at: 10
+    EXPECT_LE(hidden.percent(hidden.ours_guessed), 11); // aimed at: 10
     EXPECT_LE(hidden.ours_guessed, hidden.peers_guessed);
 }
 

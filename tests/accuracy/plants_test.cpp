@@ -74,7 +74,7 @@ TEST(PlantMeans, LeavesStandWhereTheyAre)
     EXPECT_LE(mean.median_mm, 0.8);
     EXPECT_GE(mean.valued, 93);
     EXPECT_GE(mean.within_valued, 88);
-    EXPECT_LE(mean.off_valued, 2.8); // aimed at: 2.5
+    EXPECT_LE(mean.off_valued, 2.7); // aimed at: 2.5
     EXPECT_LT(mean.median_mm, peer.median_mm);
     EXPECT_GT(mean.valued, peer.valued);
     EXPECT_GT(mean.within_all, peer.within_all);
