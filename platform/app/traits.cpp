@@ -1,5 +1,6 @@
 // dicot traits: what grew in an archive, as tables, curves and pictures.
 #include "commands.h"
+#include "distinct_files.h"
 #include "pull/archive_folder.h"
 #include "stop_request.h"
 #include "store/shown.h"
@@ -83,20 +84,36 @@ Status write_file(const std::string& path, const std::string& text)
     return file.commit();
 }
 
-/// "growth.csv" and "growth.leaves.csv".
+/// "growth.leaves.csv" of "growth.csv".
+std::string beside_table(const std::string& path)
+{
+    return (path.ends_with(".csv") ? path.substr(0, path.size() - 4) : path) + ".leaves.csv";
+}
+
+/// No table goes over the one of the places, and no two outputs into one another.
+Status check_outputs(const TraitsWords& words)
+{
+    if (words.csv.empty())
+        return {};
+    if (words.csv != kStandardOutput)
+        return check_distinct({words.places}, {words.csv, beside_table(words.csv)});
+    return words.json ? failure(Fault::kUsage, "--csv and --json both want standard output: give --csv a FILE")
+                      : Status{};
+}
+
 Status write_tables(const std::string& path, const Report& report)
 {
     if (path == kStandardOutput) {
         std::printf("%s%s", plant_csv_names().c_str(), report.plant_lines.c_str());
         return {};
     }
-    const std::string stem = path.ends_with(".csv") ? path.substr(0, path.size() - 4) : path;
     TRY(write_file(path, plant_csv_names() + report.plant_lines));
-    return write_file(stem + ".leaves.csv", leaf_csv_names() + report.leaf_lines);
+    return write_file(beside_table(path), leaf_csv_names() + report.leaf_lines);
 }
 
 Status run(const TraitsWords& words)
 {
+    TRY(check_outputs(words));
     const std::string archive = TRY(archive_folder(words.archive));
     const TraitsWishes wishes = TRY(wishes_of(words));
     std::vector<DeviceFolder> boards = TRY(boards_of_archive(archive));
@@ -110,8 +127,10 @@ Status run(const TraitsWords& words)
     Report report;
     for (const DeviceFolder& board : boards) {
         worst.add(in_store(board.path, report_board(board, words, wishes, report)));
-        if (StopRequest::asked())
-            return worst.worst();
+        if (!StopRequest::asked())
+            continue;
+        return worst.worst().ok() ? failure(Fault::kTryAgain, "stopped: no table is written; what was measured is kept")
+                                  : Status{worst.worst()};
     }
     if (!words.csv.empty())
         TRY(write_tables(words.csv, report));

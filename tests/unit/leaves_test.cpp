@@ -298,6 +298,30 @@ TEST(Plants, AreWhatStandsInBoxes)
     EXPECT_EQ(scene.leaf_of(3), 0);
 }
 
+TEST(Plants, AreFoundInTheirBoxesHoweverSmall)
+{
+    Scene scene;
+    scene.paint(1, ellipse(480, 200, 60, 50), plane(600, 0, 0)).paint(2, ellipse(160, 200, 16, 12), plane(600, 0, 0));
+    scene.look();
+    EXPECT_EQ(scene.leaves.plant_count, 1);
+    EXPECT_EQ(scene.plant_of(2), 0);
+    const PlantBox boxes[] = {{{60, 0, -1000}, {400, 2000, 1000}}, {{-400, 0, -1000}, {-60, 2000, 1000}}};
+    scene.look(boxes);
+    EXPECT_EQ(scene.plant_of(1), 1);
+    EXPECT_EQ(scene.plant_of(2), 2);
+}
+
+TEST(Plants, LeaveOutWhatHangsInTheAirAboveThem)
+{
+    Scene scene;
+    // The second is 200 mm straight up from the first.
+    scene.paint(1, ellipse(320, 330, 90, 55), plane(620, 0, 0)).paint(2, ellipse(320, 137, 14, 10), plane(552, 0, 0));
+    scene.look();
+    EXPECT_EQ(scene.leaves.plant_count, 1);
+    EXPECT_EQ(scene.plant_of(1), 1);
+    EXPECT_EQ(scene.plant_of(2), 0);
+}
+
 TEST(Leaves, AreRefusedWithTooLittleMemory)
 {
     Scene scene;

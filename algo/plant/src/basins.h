@@ -17,7 +17,7 @@ struct Pieces
 };
 
 /// Floods the distance to the next tear from its peaks downwards; two basins become one where they meet at more than
-/// half of the lower peak, and stay apart where the surface between them is a neck, as a petiole is, or a contact of
+/// 0.6 of the lower peak, and stay apart where the surface between them is a neck, as a petiole is, or a contact of
 /// two blades.
 Pieces cut_at_necks(const Surface& surface, Arena& arena);
 

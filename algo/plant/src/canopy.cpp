@@ -2,6 +2,7 @@
 #include "frame.h"
 #include "green.h"
 #include "groups.h"
+#include "strays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -104,7 +105,7 @@ int number_plants(const TopView& top, std::span<const std::int32_t> held, Groups
 
 } // namespace
 
-Canopy find_canopy(const PlantView& view, const GroundFrame& ground, Arena& arena)
+Canopy find_canopy(const PlantView& view, const GroundFrame& ground, Arena& arena, bool with_strays)
 {
     Canopy canopy;
     canopy.plant = arena.take<std::uint8_t>(view.cloud.points.size());
@@ -127,11 +128,15 @@ Canopy find_canopy(const PlantView& view, const GroundFrame& ground, Arena& aren
         join_cells(top, held, groups);
         canopy.plant_count = number_plants(top, held, groups, number, column);
         for (std::size_t i = 0; i < canopy.plant.size(); ++i)
-            if (canopy.plant[i])
-                canopy.plant[i] = static_cast<std::uint8_t>(
-                    number[static_cast<std::size_t>(groups.root(static_cast<std::int32_t>(cell_of(i))))]);
+            if (canopy.plant[i]) {
+                const std::int32_t root = groups.root(static_cast<std::int32_t>(cell_of(i)));
+                const std::int32_t named = number[static_cast<std::size_t>(root)];
+                canopy.plant[i] = static_cast<std::uint8_t>(named == 0 && with_strays ? UINT8_MAX : named);
+            }
     }
     arena.rewind(mark);
+    if (!with_strays)
+        drop_strays(view, canopy, arena);
     return canopy;
 }
 

@@ -107,7 +107,7 @@ public:
     }
 
 private:
-    static constexpr int kSpeck = 60, kGuessed = 42, kSure = 80, kClearShare = 2, kLargeShare = 50;
+    static constexpr int kSpeck = 60, kGuessed = 60, kSure = 125, kClearShare = 2, kLargeShare = 50;
 
     bool is_leafy(std::int32_t i) { return kClearShare * at(clearly_, i) >= at(size_, i); }
     bool was_seen(std::int32_t i) { return !is_confident_ || at(confidence_, i) >= kGuessed * at(size_, i); }

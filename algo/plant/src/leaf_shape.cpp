@@ -44,7 +44,7 @@ Sections sections_of(std::span<const Place> places, double spacing_mm)
     const auto [first, last] = std::ranges::minmax_element(places, {}, &Place::along);
     const double extent = std::max(1e-6, double(last->along) - double(first->along));
     Sections sections;
-    sections.count = std::clamp(static_cast<int>(extent / (1.5 * spacing_mm)), 4, kMostSections);
+    sections.count = static_cast<int>(std::clamp(extent / (1.5 * spacing_mm), 4.0, double(kMostSections)));
     sections.start = first->along;
     sections.step = extent / sections.count;
     for (const Place& place : places) {

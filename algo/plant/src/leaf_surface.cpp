@@ -88,7 +88,7 @@ private:
     {
         const int leaf = leaves_.leaf[static_cast<std::size_t>(point)];
         const double z = z_mm(point);
-        const int radius = std::clamp(static_cast<int>(kSmoothing_mm * view_.focal_px / z + 0.5), 2, 32);
+        const int radius = static_cast<int>(std::clamp(kSmoothing_mm * view_.focal_px / z + 0.5, 2.0, 32.0));
         const int stride = std::max(1, radius / 3); // 49 places or a little more
         const int reach = radius / stride * stride;
         const double farthest = 6 * kSmoothing_mm;

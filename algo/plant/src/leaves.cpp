@@ -73,7 +73,7 @@ void number_leaves(std::span<Blade> blades, Leaves& leaves)
 std::size_t segment_leaves_bytes(const PlantView& view)
 {
     // Lists of the points, layers of the cells, and what is of one size for any cloud.
-    constexpr std::size_t kPointBytes = 16, kCellBytes = 22, kAnyBytes = std::size_t{8} << 20;
+    constexpr std::size_t kPointBytes = 24, kCellBytes = 22, kAnyBytes = std::size_t{8} << 20;
     constexpr int kFrame = 2 * Surface::kMargin;
     const std::size_t cells =
         (static_cast<std::size_t>(view.point.width) + kFrame) * (static_cast<std::size_t>(view.point.height) + kFrame);
@@ -87,7 +87,7 @@ Result<Leaves> segment_leaves(const PlantView& view, std::span<const PlantBox> b
     leaves.leaf = arena.take<std::uint16_t>(view.cloud.points.size());
     leaves.plant_of_leaf = arena.take<std::uint8_t>(kMostPieces);
     leaves.ground = find_ground(view, arena);
-    Canopy canopy = find_canopy(view, leaves.ground, arena);
+    Canopy canopy = find_canopy(view, leaves.ground, arena, !boxes.empty());
     stand_on_soil(view, canopy, leaves.ground, arena);
     if (arena.overrun())
         return too_little();

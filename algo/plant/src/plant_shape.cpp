@@ -131,7 +131,10 @@ void measure_plant(const PlantView& view, const Leaves& leaves, const LeafSurfac
         reach.take_in(at);
         green += greenness(view.cloud.points[i].colour);
     });
-    if (plant.points == 0) {
+    if (plant.points == 0) { // a place where nothing grows has no height
+        constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+        for (Measured* none : {&plant.height_max_mm, &plant.height_p99_mm, &plant.height_top10_mean_mm})
+            *none = {kNone, kNone};
         arena.rewind(mark);
         return;
     }

@@ -164,7 +164,8 @@ Result<PlantView> plant_view(const PointCloud& cloud, Arena& arena)
     view.point = {all.data(), width, height};
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Direction at = direction(points[i]);
-        std::int32_t& there = view.point.at(cell(column, at.across), cell(row, at.down));
+        // The least one may lie on the border of two cells.
+        std::int32_t& there = view.point.at(std::max(0, cell(column, at.across)), std::max(0, cell(row, at.down)));
         if (there == PlantView::kNoPoint || points[i].z < points[static_cast<std::size_t>(there)].z)
             there = static_cast<std::int32_t>(i);
     }

@@ -38,7 +38,9 @@ PrincipalAxes principal_axes(const Moments& moments)
                 }
             }
     std::array<int, 3> order{0, 1, 2};
-    std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return a[i][i] > a[j][j]; });
+    // Not std::stable_sort(), which takes memory from the heap.
+    std::sort(order.begin(), order.end(),
+              [&](int i, int j) { return a[i][i] > a[j][j] || (a[i][i] == a[j][j] && i < j); });
     PrincipalAxes axes{};
     for (std::size_t i = 0; i < 3; ++i) {
         const int k = order[i];

@@ -82,11 +82,11 @@ std::string plant_words(const PlantReport& report)
         std::snprintf(line, sizeof line, format, values...);
         words += line;
     };
-    say("%s: %s, ground: %s", shown(report.cloud).c_str(),
-        counted(static_cast<std::int64_t>(work.traits().plants.size()), "plant").c_str(), name_of(ground.kind));
+    words += shown(report.cloud) + ": " + counted(static_cast<std::int64_t>(work.traits().plants.size()), "plant") +
+             ", ground: " + name_of(ground.kind);
     words += ground.kind == GroundFrame::Kind::kNone ? "; heights are not to be believed\n" : "\n";
     for (const PlantTraits& plant : work.traits().plants) {
-        say("%s%s\n", shown(work.plant_name(plant.plant)).c_str(), plant.cut ? ", leaves the view" : "");
+        words += shown(work.plant_name(plant.plant)) + (plant.cut ? ", leaves the view\n" : "\n");
         for (const PlantColumn& column : plant_columns()) {
             const Measured& measured = plant.*column.measured;
             say("  %-36s %9.1f +- %.1f %s\n", column.words, measured.value * column.drawn_units,

@@ -141,7 +141,8 @@ private:
     {
         const std::scoped_lock lock(mutex_);
         if (measured.ok()) {
-            kept_ = cache_.add(slot.row.sums.view(), measured.value());
+            if (kept_.ok()) // the first fault stays
+                kept_ = cache_.add(slot.row.sums.view(), measured.value());
             going_ = kept_.ok();
             slot.traits = std::move(measured.value());
         } else {

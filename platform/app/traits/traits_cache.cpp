@@ -71,7 +71,9 @@ Result<TraitsCache> TraitsCache::open(const std::string& folder, const std::stri
                 cache.known_.insert_or_assign(one["sums"].get<std::string>(), std::move(*traits));
         }
     }
-    cache.file_.reset(std::fopen(cache.path_.c_str(), is_ours ? "ae" : "we"));
+    if (!is_ours) // another program may still write to the old one
+        fs::remove(cache.path_, error);
+    cache.file_.reset(std::fopen(cache.path_.c_str(), "ae"));
     if (!cache.file_)
         return failure(Fault::kCannotCreate, "%s: %s: name another folder for the cache with --cache",
                        shown(cache.path_).c_str(), std::strerror(errno));

@@ -5,6 +5,7 @@
 
 #include <httplib.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <string>
@@ -58,7 +59,9 @@ void respond(ViewSite& site, const httplib::Request& request, httplib::Response&
         return;
     response.set_content_provider(answer.body->size(), answer.type,
                                   [body = answer.body](std::size_t at, std::size_t size, httplib::DataSink& sink) {
-                                      return sink.write(body->data() + at, size);
+                                      // The library hands on any Range that is asked for, even behind the end.
+                                      return at < body->size() &&
+                                             sink.write(body->data() + at, std::min(size, body->size() - at));
                                   });
 }
 

@@ -24,8 +24,9 @@ struct Canopy
 GroundFrame find_ground(const PlantView& view, Arena& arena);
 
 /// Green points above the ground, in groups with gaps of 100 mm between them, numbered from left to right; groups of
-/// less than a fifth of the largest are strays.
-Canopy find_canopy(const PlantView& view, const GroundFrame& ground, Arena& arena);
+/// less than a fifth of the largest, or of less than 200 points, are strays: 0, or 255 with `with_strays`, for
+/// put_in_boxes() to take.
+Canopy find_canopy(const PlantView& view, const GroundFrame& ground, Arena& arena, bool with_strays = false);
 
 /// Numbers the canopy by the box that holds a point, the first that does; what stands in none is no canopy.
 void put_in_boxes(const PlantView& view, const GroundFrame& ground, std::span<const PlantBox> boxes, Canopy& canopy);
