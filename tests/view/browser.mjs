@@ -3,6 +3,7 @@ import { spawn } from "node:child_process";
 import { chromium } from "playwright-core";
 
 const kFlags = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"];
+const kPatienceMs = 180_000; // the processors may have other work
 
 export function check(what, holds, seen) {
     if (!holds)
@@ -23,6 +24,7 @@ export async function serve(program, path) {
 export async function open(url, words = {}) {
     const browser = await chromium.launch({ executablePath: process.env.DICOT_CHROMIUM, args: kFlags });
     const context = await browser.newContext({ viewport: { width: 1280, height: 860 }, ...words });
+    context.setDefaultTimeout(kPatienceMs);
     const page = await context.newPage();
     const noted = { errors: [], requests: [] };
     page.on("pageerror", (error) => noted.errors.push(error.message));
@@ -38,7 +40,7 @@ export async function open(url, words = {}) {
 const benign = (message) => /GL Driver Message|GPU stall/.test(message.text());
 
 export const ready = (page, sequence) =>
-    page.waitForFunction((wanted) => document.documentElement.dataset.ready === wanted, String(sequence), { timeout: 60_000 });
+    page.waitForFunction((wanted) => document.documentElement.dataset.ready === wanted, String(sequence), { timeout: kPatienceMs });
 
 /// The canvas as it is drawn: width, height, and four bytes a pixel.
 export async function pixels(page) {

@@ -121,6 +121,7 @@ TEST_F(ViewPage, FitsAPhone)
 TEST_F(ViewPage, AnExportedFolderIsShownFromItsFiles)
 {
     if (not_run() == nullptr) {
+        ASSERT_EQ(::setenv("XDG_CACHE_HOME", (scene() + "/cache").c_str(), 1), 0); // what is measured is kept there
         const test::ToolRun run = dicot("view '" + scene() + "/store' --export '" + scene() + "/exported'");
         ASSERT_EQ(run.exit_code, 0) << run.output;
     }

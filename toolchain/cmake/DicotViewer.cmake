@@ -21,9 +21,9 @@ function(dicot_fetch_packages from into missing)
   endforeach()
   message(STATUS "Fetching npm's packages for ${from}")
   execute_process(COMMAND "${DICOT_NPM}" ci --ignore-scripts --no-audit --no-fund --prefer-offline --fetch-retries=1 --fetch-timeout=30000
-    WORKING_DIRECTORY "${into}" RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said)
+    WORKING_DIRECTORY "${into}" RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said TIMEOUT 600)
   if(NOT code EQUAL 0)
-    string(REPLACE "\n" " " said "${said}")
+    string(REGEX REPLACE "[^-A-Za-z0-9 .,:/@_=()]+" " " said "${said}") # it becomes a part of a string in C++
     set(${missing} "npm cannot fetch its packages: ${said}" PARENT_SCOPE)
     return()
   endif()
