@@ -150,9 +150,10 @@ void sum_shapes(const Surface& surface, const Pieces& pieces, std::span<Piece> a
             continue;
         Piece& piece = all[static_cast<std::size_t>(pieces.piece[i]) - 1];
         piece.half_width_px = std::max(piece.half_width_px, double(surface.inside_px5[i]) / Surface::kUnit);
+        const std::size_t column = i % width, row = i / width;
         if (surface.cell[i] == Surface::kPoint)
-            piece.shape.add((double(i % width) - surface.width / 2.0) / kUnitPx,
-                            (double(i / width) - surface.height / 2.0) / kUnitPx,
+            piece.shape.add((double(column) - surface.width / 2.0) / kUnitPx,
+                            (double(row) - surface.height / 2.0) / kUnitPx,
                             (double{surface.inverse[i]} / middle - 1) * surface.focal_px);
     }
 }
