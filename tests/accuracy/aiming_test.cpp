@@ -1,4 +1,6 @@
 // What the comparison of two views says of every real and rendered pair, also swapped, and how long it takes.
+#include "lent_arena.h"
+
 #include "dicot/aiming/views.h"
 #include "dicot/calibration/grey.h"
 #include "dicot/os/clock.h"
@@ -9,9 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <memory>
 #include <random>
 #include <string>
 #include <utility>
@@ -82,10 +82,8 @@ struct Counts
 
 Views compare(const Grey& left, const Grey& right)
 {
-    const std::size_t bytes = view_scratch_bytes(left.width, left.height);
-    const std::unique_ptr<void, decltype(&std::free)> block{std::aligned_alloc(Arena::kAlignment, bytes), &std::free};
-    Arena arena({static_cast<std::byte*>(block.get()), bytes});
-    return compare_views(left.view(), right.view(), arena).value();
+    test::LentArena scratch(view_scratch_bytes(left.width, left.height));
+    return compare_views(left.view(), right.view(), scratch.arena()).value();
 }
 
 bool present(const char* test, const fs::path& folder)

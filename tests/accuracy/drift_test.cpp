@@ -1,4 +1,5 @@
 // The residual of real pairs, with the matcher's own disparities, after the right picture was moved by a known amount.
+#include "lent_arena.h"
 #include "matched.h"
 #include "scenes.h"
 
@@ -10,9 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <memory>
 #include <vector>
 
 namespace dicot {
@@ -79,11 +78,9 @@ Measured measure(const Picture& left, const Picture& right, int disparities)
     options.disparities = disparities;
     options.window = 15;
     const Matched matched(left.view(), right.view(), options);
-    const std::size_t bytes = drift_scratch_bytes(left.width, left.height);
-    const std::unique_ptr<void, decltype(&std::free)> block{std::aligned_alloc(Arena::kAlignment, bytes), &std::free};
-    Arena arena({static_cast<std::byte*>(block.get()), bytes});
+    test::LentArena scratch(drift_scratch_bytes(left.width, left.height));
     const std::int64_t began_us = process_cpu_us();
-    const EpipolarDrift drift = measure_drift(left.view(), right.view(), matched.map(), arena).value();
+    const EpipolarDrift drift = measure_drift(left.view(), right.view(), matched.map(), scratch.arena()).value();
     return {drift, double(process_cpu_us() - began_us) * 1e-3};
 }
 

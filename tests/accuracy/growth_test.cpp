@@ -1,6 +1,7 @@
 // One rendered plant at eight stages of its growth, from pictures to curves: calibrated, matched and measured by the
 // program itself, out of an archive with a slot missing.
 #include "archive_folder.h"
+#include "csv_numbers.h"
 #include "own_rig.h"
 #include "temp_folder.h"
 #include "tool.h"
@@ -16,7 +17,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -43,27 +43,6 @@ bool data_there(const char* test)
 test::ToolRun dicot(const std::string& words)
 {
     return test::run(std::string{DICOT_PROGRAM} + " " + words);
-}
-
-std::vector<std::map<std::string, double>> table(const std::string& path)
-{
-    std::ifstream file(path);
-    std::vector<std::string> names;
-    std::vector<std::map<std::string, double>> rows;
-    for (std::string line; std::getline(file, line);) {
-        std::istringstream cells(line);
-        std::vector<std::string> row;
-        for (std::string cell; std::getline(cells, cell, ',');)
-            row.push_back(cell);
-        if (names.empty()) {
-            names = row;
-            continue;
-        }
-        auto& numbers = rows.emplace_back();
-        for (std::size_t k = 0; k < row.size(); ++k)
-            numbers[names[k]] = std::strtod(row[k].c_str(), nullptr);
-    }
-    return rows;
 }
 
 std::string day_of(int stage)
@@ -122,7 +101,7 @@ const Grown& grown()
                   folder.path("growth.csv") + " --plot " + std::string{DICOT_PICTURES_DIR} + "/growth");
         EXPECT_EQ(run.exit_code, 0) << run.output;
         all.board = json::parse(run.output).at("boards").at(0);
-        all.leaves = table(folder.path("growth.leaves.csv"));
+        all.leaves = test::csv_numbers(folder.path("growth.leaves.csv"));
         return all;
     }();
     return made;
@@ -174,7 +153,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b)
 std::vector<double> truth_of(const char* column)
 {
     std::vector<double> values;
-    for (const auto& row : table(kGrowth + "gt_growth.csv"))
+    for (const auto& row : test::csv_numbers(kGrowth + "gt_growth.csv"))
         values.push_back(row.at(column));
     return values;
 }
@@ -281,7 +260,7 @@ TEST(Growth, LeavesKeepTheirNumbers)
     for (int stage = 1; stage <= kStages; ++stage) {
         const auto i = static_cast<std::size_t>(stage - 1);
         std::map<int, double> nearest;
-        for (const auto& truth : table(kGrowth + "gt_stage" + std::to_string(stage) + "_leaves.csv")) {
+        for (const auto& truth : test::csv_numbers(kGrowth + "gt_stage" + std::to_string(stage) + "_leaves.csv")) {
             if (truth.at("visible_px") < kLeafPixels)
                 continue;
             const Point3 centre =

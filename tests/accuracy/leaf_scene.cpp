@@ -1,6 +1,7 @@
 #include "leaf_scene.h"
 
 #include "calibration_data.h"
+#include "csv_numbers.h"
 #include "matched.h"
 #include "own_rig.h"
 #include "plant_pairs.h"
@@ -10,7 +11,6 @@
 
 #include <cmath>
 #include <map>
-#include <sstream>
 
 namespace dicot::test {
 namespace {
@@ -42,28 +42,6 @@ std::vector<int> ids_of(const std::string& path)
     for (const float value : values)
         ids.push_back(std::isfinite(value) ? static_cast<int>(value) : 0);
     return ids;
-}
-
-std::vector<std::map<std::string, double>> table(const std::string& path)
-{
-    std::ifstream file(path);
-    std::vector<std::string> names;
-    std::vector<std::map<std::string, double>> rows;
-    for (std::string line; std::getline(file, line);) {
-        std::erase(line, '\r');
-        std::istringstream cells(line);
-        std::vector<std::string> row;
-        for (std::string cell; std::getline(cells, cell, ',');)
-            row.push_back(cell);
-        if (names.empty()) {
-            names = row;
-            continue;
-        }
-        rows.emplace_back();
-        for (std::size_t i = 0; i < row.size(); ++i)
-            rows.back()[names[i]] = std::strtod(row[i].c_str(), nullptr);
-    }
-    return rows;
 }
 
 /// The true surface: where each pixel's ray ends, in the left camera's frame.
@@ -189,7 +167,7 @@ void read_leaves(const std::string& folder, const Surface& surface, const TrueDe
             if (const int id = scene.picture_leaf[surface.index(x, y)])
                 seen[id].emplace_back(turned(rectifying, surface.at(surface.index(x, y))), surface.area_mm2(x, y));
     const auto& up = scene.ground.up;
-    for (auto& row : table(folder + "/gt_leaves.csv")) {
+    for (auto& row : csv_numbers(folder + "/gt_leaves.csv")) {
         const auto place = [&](const std::string& of) {
             return turned(rectifying, {row[of + "_x_mm"], row[of + "_y_mm"], row[of + "_z_mm"]});
         };

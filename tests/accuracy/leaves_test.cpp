@@ -11,6 +11,7 @@
 // points each, or more, and are mostly its own.
 #include "calibration_data.h"
 #include "leaf_scene.h"
+#include "lent_arena.h"
 
 #include "dicot/plant/leaves.h"
 
@@ -19,9 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
-#include <memory>
 
 namespace dicot::test {
 namespace {
@@ -138,10 +137,8 @@ const Seen& all_plants()
         std::printf("| %-22s | %-10s | %-10s | %-9s | %-8s | %-7s | %-4s | %-5s |\n", "leaves", "by both", "by left",
                     "of pixels", "segments", "surplus", "none", "split");
         for (const LeafScene& scene : plant_scenes()) {
-            constexpr std::size_t kRoom = std::size_t{128} << 20;
-            const std::unique_ptr<std::byte, void (*)(void*)> memory(
-                static_cast<std::byte*>(std::aligned_alloc(Arena::kAlignment, kRoom)), &std::free);
-            Arena arena({memory.get(), kRoom});
+            LentArena room(std::size_t{128} << 20);
+            Arena& arena = room.arena();
             const PlantView view = plant_view(scene.cloud(), arena).value();
             const std::size_t before = arena.used();
             const std::clock_t start = std::clock();

@@ -3,7 +3,6 @@
 #include "dicot/kernels/kernels.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 namespace dicot::test {
@@ -23,15 +22,12 @@ Disparities disparities_of(const DisparityMap& map)
 }
 
 RectifiedView::RectifiedView(const StereoRig& rig)
-    : rig_(rig), flat_(rectify(rig, kCrop, "the rig").value()), memory_(nullptr, &std::free)
+    : rig_(rig), flat_(rectify(rig, kCrop, "the rig").value()),
+      memory_(2 * RemapTable::most_bytes(rig.width, rig.height))
 {
-    const std::size_t bytes = 2 * RemapTable::most_bytes(rig.width, rig.height);
-    const std::size_t rounded = (bytes + Arena::kAlignment - 1) / Arena::kAlignment * Arena::kAlignment;
-    memory_.reset(std::aligned_alloc(Arena::kAlignment, rounded));
-    Arena arena({static_cast<std::byte*>(memory_.get()), rounded});
     const auto table = [&](const Lens& lens, const Turn& turn) {
         const LensMap map(lens, turn, flat_.focal_px, flat_.cx_px, flat_.cy_px);
-        return RemapTable::build(map, rig.width, rig.height, arena, "the rig").value();
+        return RemapTable::build(map, rig.width, rig.height, memory_.arena(), "the rig").value();
     };
     maps_.left = table(rig.left, flat_.left_rectifying);
     maps_.right = table(rig.right, flat_.right_rectifying);

@@ -1,6 +1,7 @@
 // A pair of cameras' pictures with parallel rows, and the way back from disparities to depths of the raw pixels.
 #pragma once
 
+#include "lent_arena.h"
 #include "raw_depth.h"
 #include "scenes.h"
 
@@ -10,7 +11,6 @@
 #include "dicot/rectification/rectify.h"
 #include "dicot/rectification/rig_maps.h"
 
-#include <memory>
 #include <vector>
 
 namespace dicot::test {
@@ -59,7 +59,7 @@ private:
 
     StereoRig rig_;
     Rectification flat_;
-    std::unique_ptr<void, void (*)(void*)> memory_;
+    LentArena memory_;
     RigMaps maps_;
     std::vector<std::int32_t> nearest_; ///< of each raw pixel: the rectified pixel's index, or -1
 };

@@ -1,6 +1,7 @@
 // Lengths, widths, areas and heights of the rendered plants: with true leaves, and with those that are found.
 #include "calibration_data.h"
 #include "leaf_scene.h"
+#include "lent_arena.h"
 
 #include "dicot/plant/leaves.h"
 #include "dicot/plant/traits.h"
@@ -9,28 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <memory>
 
 namespace dicot::test {
 namespace {
-
-class Table
-{
-public:
-    explicit Table(std::size_t bytes)
-        : bytes_((bytes + Arena::kAlignment - 1) / Arena::kAlignment * Arena::kAlignment),
-          memory_(static_cast<std::byte*>(std::aligned_alloc(Arena::kAlignment, bytes_)), &std::free),
-          arena_({memory_.get(), bytes_})
-    {
-    }
-    Arena& arena() { return arena_; }
-
-private:
-    std::size_t bytes_;
-    std::unique_ptr<std::byte, void (*)(void*)> memory_;
-    Arena arena_;
-};
 
 /// Errors of whole leaves, relative, and in standard deviations; of plants.
 struct Errors
@@ -205,7 +187,7 @@ TEST(TraitsAccuracy, plants_and_whole_leaves_of_true_outline_are_as_measured)
     print_head("true leaves");
     for (const LeafScene& scene : plant_scenes()) {
         const TrueLeaves truth(scene);
-        Table table(traits_bytes(scene.points.size(), truth.leaves.leaf_count, 1) + (std::size_t{32} << 20));
+        LentArena table(traits_bytes(scene.points.size(), truth.leaves.leaf_count, 1) + (std::size_t{32} << 20));
         const PlantView view = plant_view(scene.cloud(), table.arena()).value();
         const Traits traits = measure_traits(view, truth.leaves, table.arena()).value();
         Errors errors;
@@ -228,9 +210,9 @@ TEST(TraitsAccuracy, plants_and_whole_leaves_that_are_found_are_as_measured)
     Errors all;
     print_head("leaves as found");
     for (const LeafScene& scene : plant_scenes()) {
-        Table room(std::size_t{32} << 20);
+        LentArena room(std::size_t{32} << 20);
         const PlantView view = plant_view(scene.cloud(), room.arena()).value();
-        Table table(segment_leaves_bytes(view) + traits_bytes(scene.points.size(), UINT16_MAX, UINT8_MAX));
+        LentArena table(segment_leaves_bytes(view) + traits_bytes(scene.points.size(), UINT16_MAX, UINT8_MAX));
         const Leaves leaves = segment_leaves(view, {}, table.arena()).value();
         const Traits traits = measure_traits(view, leaves, table.arena()).value();
         Errors errors;

@@ -1,4 +1,5 @@
 // The residual of rows that are known to be apart: a drawn scene, its true disparities, no matcher.
+#include "lent_arena.h"
 #include "spotted_wall.h"
 
 #include "dicot/drift/drift.h"
@@ -7,8 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <memory>
 #include <random>
 #include <vector>
 
@@ -87,10 +86,8 @@ protected:
         map.confidence = {confidences.data(), kWidth, kHeight};
         map.min_disparity = 10;
         map.disparities = 32;
-        const std::size_t bytes = drift_scratch_bytes(kWidth, kHeight);
-        const std::unique_ptr<void, decltype(&std::free)> block{std::aligned_alloc(Arena::kAlignment, bytes),
-                                                                &std::free};
-        Arena arena({static_cast<std::byte*>(block.get()), bytes});
+        test::LentArena scratch(drift_scratch_bytes(kWidth, kHeight));
+        Arena& arena = scratch.arena();
         Result<EpipolarDrift> drift = measure_drift(left.view(), right.view(), map, arena);
         EXPECT_EQ(arena.used(), 0U);
         EXPECT_FALSE(arena.overrun());

@@ -1,11 +1,12 @@
 // Leaves drawn from formulas, whose lengths, areas and angles are known.
+#include "lent_arena.h"
+
 #include "dicot/plant/convex_hull.h"
 #include "dicot/plant/traits.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -17,23 +18,6 @@ namespace dicot {
 namespace {
 
 constexpr double kFocal_px = 800, kDegree = std::numbers::pi / 180;
-
-class Table
-{
-public:
-    explicit Table(std::size_t bytes)
-        : bytes_((bytes + Arena::kAlignment - 1) / Arena::kAlignment * Arena::kAlignment),
-          memory_(static_cast<std::byte*>(std::aligned_alloc(Arena::kAlignment, bytes_)), &std::free),
-          arena_({memory_.get(), bytes_})
-    {
-    }
-    Arena& arena() { return arena_; }
-
-private:
-    std::size_t bytes_;
-    std::unique_ptr<std::byte, void (*)(void*)> memory_;
-    Arena arena_;
-};
 
 /// What is drawn, pixel by pixel: the depth of each leaf, the nearest wins.
 class Drawn
@@ -115,7 +99,7 @@ public:
         plant_of_leaf_.assign(static_cast<std::size_t>(count_), 1);
         ground.kind = GroundFrame::Kind::kBench;
         Leaves leaves{leaf_, plant_, plant_of_leaf_, count_, 1, ground};
-        table_ = std::make_unique<Table>(traits_bytes(points_.size(), count_, 1) + (std::size_t{4} << 20));
+        table_ = std::make_unique<test::LentArena>(traits_bytes(points_.size(), count_, 1) + (std::size_t{4} << 20));
         const PlantView view = plant_view({points_, {}}, table_->arena()).value();
         return measure_traits(view, leaves, table_->arena()).value();
     }
@@ -128,7 +112,7 @@ private:
     std::vector<CloudPoint> points_;
     std::vector<std::uint16_t> leaf_;
     std::vector<std::uint8_t> plant_, plant_of_leaf_;
-    std::unique_ptr<Table> table_;
+    std::unique_ptr<test::LentArena> table_;
 };
 
 bool in_ellipse(double s, double w, double length, double width)
@@ -282,14 +266,14 @@ TEST(PlantTraits, memory_is_what_was_said_and_less_is_refused)
     std::vector<CloudPoint> points{{0, 0, 6000, {40, 120, 40}, 255}, {8, 0, 6000, {40, 120, 40}, 255}};
     std::vector<std::uint16_t> leaf{1, 1};
     std::vector<std::uint8_t> plant{1, 1}, plant_of_leaf{1};
-    Table room(std::size_t{1} << 20);
+    test::LentArena room(std::size_t{1} << 20);
     const PlantView view = plant_view({points, {}}, room.arena()).value();
     const Leaves leaves{leaf, plant, plant_of_leaf, 1, 1, {}};
-    Table small(4096);
+    test::LentArena small(4096);
     const auto refused = measure_traits(view, leaves, small.arena());
     ASSERT_FALSE(refused.ok());
     EXPECT_EQ(refused.status().fault(), Fault::kConfig);
-    Table enough(traits_bytes(points.size(), 1, 1));
+    test::LentArena enough(traits_bytes(points.size(), 1, 1));
     const auto two_points = measure_traits(view, leaves, enough.arena());
     ASSERT_TRUE(two_points.ok());
     EXPECT_TRUE(std::isnan(two_points.value().leaves[0].length_mm.value));
@@ -297,7 +281,7 @@ TEST(PlantTraits, memory_is_what_was_said_and_less_is_refused)
 
 std::int64_t hull_x6(std::vector<GridPoint> points)
 {
-    Table table(hull_bytes(points.size()));
+    test::LentArena table(hull_bytes(points.size()));
     return hull_volume_x6(points, table.arena());
 }
 

@@ -1,4 +1,5 @@
 // Two views of a drawn scene whose shift, offset and roll are known.
+#include "lent_arena.h"
 #include "spotted_wall.h"
 
 #include "dicot/aiming/views.h"
@@ -7,8 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <memory>
 #include <random>
 #include <vector>
 
@@ -70,10 +69,8 @@ protected:
     }
     static Result<Views> compare(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right)
     {
-        const std::size_t bytes = view_scratch_bytes(left.width, left.height);
-        const std::unique_ptr<void, decltype(&std::free)> block{std::aligned_alloc(Arena::kAlignment, bytes),
-                                                                &std::free};
-        Arena arena({static_cast<std::byte*>(block.get()), bytes});
+        test::LentArena scratch(view_scratch_bytes(left.width, left.height));
+        Arena& arena = scratch.arena();
         Result<Views> views = compare_views(left, right, arena);
         EXPECT_EQ(arena.used(), 0u);
         EXPECT_FALSE(arena.overrun());

@@ -1,6 +1,7 @@
 #include "highlights.h"
 
 #include "plane_sums.h"
+#include "scene_plane.h"
 
 #include <algorithm>
 #include <array>
@@ -61,14 +62,6 @@ int vertex_q8(std::int64_t before, std::int64_t at, std::int64_t after)
 {
     const std::int64_t curvature = 2 * at - before - after;
     return curvature <= 0 ? 0 : static_cast<int>((after - before) * 128 / curvature);
-}
-
-template <typename Pixel>
-ImageView<Pixel> take_plane(Arena& arena, const Scene& scene)
-{
-    const auto pixels =
-        arena.take<Pixel>(static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height));
-    return {pixels.data(), scene.width, scene.height};
 }
 
 } // namespace

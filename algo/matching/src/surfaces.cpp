@@ -3,6 +3,7 @@
 #include "doubt.h"
 #include "neighbourhood.h"
 #include "plane_sums.h"
+#include "scene_plane.h"
 
 #include <algorithm>
 #include <array>
@@ -77,14 +78,6 @@ struct ShiftSums
 constexpr std::int64_t kSquareUnit = std::int64_t{64 * 64} * 128;
 /// Noise has gradients too: this much is none.
 constexpr std::int64_t kNoTexture = 30 * kSquareUnit;
-
-template <typename Pixel>
-ImageView<Pixel> take_plane(Arena& arena, const Scene& scene)
-{
-    const auto pixels =
-        arena.take<Pixel>(static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height));
-    return {pixels.data(), scene.width, scene.height};
-}
 
 } // namespace
 

@@ -10,19 +10,6 @@ namespace {
 
 constexpr const char* kCloudNames = "cloud,device,sequence,captured_at,ground,plant,plant_name";
 
-const char* name_of(GroundFrame::Kind kind)
-{
-    switch (kind) {
-    case GroundFrame::Kind::kSoil:
-        return "soil";
-    case GroundFrame::Kind::kBench:
-        return "bench";
-    case GroundFrame::Kind::kNone:
-        break;
-    }
-    return "none";
-}
-
 std::string cloud_cells(const PlantReport& report, int plant)
 {
     const CloudMeta& meta = report.meta;

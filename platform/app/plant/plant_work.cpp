@@ -32,6 +32,19 @@ std::size_t block_bytes(const PlantView& view)
 
 } // namespace
 
+const char* name_of(GroundFrame::Kind kind)
+{
+    switch (kind) {
+    case GroundFrame::Kind::kSoil:
+        return "soil";
+    case GroundFrame::Kind::kBench:
+        return "bench";
+    case GroundFrame::Kind::kNone:
+        break;
+    }
+    return "none";
+}
+
 Result<PlantWork> PlantWork::make(const PointCloud& cloud, const char* name, std::span<const PlantPlace> places,
                                   double far_mm)
 {

@@ -26,6 +26,9 @@ struct PlantTimes
     double view_s = 0, leaves_s = 0, traits_s = 0;
 };
 
+/// "soil", "bench" or "none".
+const char* name_of(GroundFrame::Kind kind);
+
 /// Everything about one cloud. The cloud is borrowed. Memory is two blocks: one for the grid, which then tells how
 /// large the other must be; pages that are not written take no room.
 class PlantWork

@@ -49,19 +49,6 @@ json json_of(const LeafTraits& leaf)
             {"cut", leaf.cut}};
 }
 
-const char* name_of(GroundFrame::Kind kind)
-{
-    switch (kind) {
-    case GroundFrame::Kind::kSoil:
-        return "soil";
-    case GroundFrame::Kind::kBench:
-        return "bench";
-    case GroundFrame::Kind::kNone:
-        break;
-    }
-    return "none";
-}
-
 } // namespace
 
 std::string plants_json(const PlantWork& work, const GridPlace& place)
