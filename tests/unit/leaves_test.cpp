@@ -203,6 +203,32 @@ TEST(Ground, NothingGreenIsNoPlant)
     EXPECT_EQ(scene.leaves.leaf_count, 0);
 }
 
+TEST(Canopy, AWaxyLeafIsOfItAndAPrintOfTheSameColourIsNot)
+{
+    constexpr Rgb8 kWaxy{134, 165, 128}; // an aloe's, in the shade
+    Scene scene;
+    scene.paint(1, ellipse(250, 160, 70, 45), plane(600, 0.1, 0.2))
+        .paint(2, ellipse(400, 170, 50, 45), plane(610, -0.1, 0.1), kWaxy)
+        .paint(3, box(250, 330, 420, 470), plane(570, 0, 0), kBrown)
+        .paint(4, ellipse(335, 400, 50, 40), plane(569.99, 0, 0), kWaxy);
+    scene.look();
+    EXPECT_GT(scene.overlap(1), 0.97);
+    EXPECT_GT(scene.overlap(2), 0.97);
+    EXPECT_EQ(scene.leaf_of(4), Leaves::kNone);
+    EXPECT_EQ(scene.leaves.leaf_count, 2);
+}
+
+TEST(Canopy, ABluishGreenPotIsNotOfIt)
+{
+    constexpr Rgb8 kPot{45, 68, 64};
+    Scene scene;
+    scene.paint(1, ellipse(320, 160, 70, 45), plane(600, 0.1, 0.2))
+        .paint(2, ellipse(320, 330, 60, 60), plane(560, 0, 0), kPot);
+    scene.look();
+    EXPECT_EQ(scene.leaf_of(2), Leaves::kNone);
+    EXPECT_EQ(scene.leaves.leaf_count, 1);
+}
+
 TEST(Leaves, OneOverTheOtherAreTwo)
 {
     Scene scene;
