@@ -25,6 +25,7 @@ using nlohmann::json;
 using test::ToolRun;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 std::string text_of(const fs::path& path)
 {
@@ -185,6 +186,23 @@ TEST_F(Traits, WhatIsNoCloudAndMatchesItsDigestIsNamedToo)
     const ToolRun run = traits();
     EXPECT_EQ(run.exit_code, 65);
     EXPECT_THAT(run.output, AllOf(HasSubstr(folder.filename().string()), HasSubstr("plant 1: 6 snapshots")));
+}
+
+TEST_F(Traits, ANightOfAFewPointsIsAGapAndNoDamage)
+{
+    test::write_specks(folder_.path("night.drc"), {});
+    archive_.done(8, noon(7), folder_.path("night.drc"));
+    for (const char* known : {"not yet", "already"}) {
+        const ToolRun run = traits("--csv " + folder_.path("out.csv"));
+        EXPECT_EQ(run.exit_code, 0) << run.output;
+        EXPECT_THAT(run.output, AllOf(HasSubstr("plant 1: 6 snapshots"), HasSubstr("1 slot, too few points"),
+                                      Not(HasSubstr("dicot: "))))
+            << known;
+        const auto rows = rows_of(text_of(folder_.path("out.csv")));
+        ASSERT_EQ(rows.size(), 9U);
+        EXPECT_EQ(rows[8][5], "done");
+        EXPECT_EQ(rows[8][6], "too few points");
+    }
 }
 
 TEST_F(Traits, ASnapshotWithoutAGroundHasNoHeights)
