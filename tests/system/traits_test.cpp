@@ -205,6 +205,23 @@ TEST_F(Traits, ANightOfAFewPointsIsAGapAndNoDamage)
     }
 }
 
+TEST_F(Traits, WhatHasNoDateIsGivenNone)
+{
+    test::ArchiveFolder archive(folder_.path("dateless"), "bench", "UTC", "not set");
+    archive.done(1, "1970-01-01T00:02:00Z", folder_.path("day1.drc"));
+    archive.missed(2, "1970-01-01T00:05:00Z", "the left camera is gone");
+    const std::string command =
+        std::string{DICOT_PROGRAM} + " traits " + folder_.path("dateless") + " --cache " + folder_.path("cache") + " ";
+    const ToolRun run = test::run(command);
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_THAT(run.output, AllOf(HasSubstr("plant 1: 1 snapshot, no date"), HasSubstr("gap without a date: 1 slot"),
+                                  Not(HasSubstr("1970"))));
+    const json gap = json::parse(test::run(command + "--json").output).at("boards").at(0).at("gaps").at(0);
+    EXPECT_TRUE(gap.at("from").is_null() && gap.at("to").is_null()) << gap;
+    EXPECT_EQ(gap.at("slots"), 1);
+    EXPECT_EQ(test::run(command + "--plot " + folder_.path("plots")).exit_code, 0);
+}
+
 TEST_F(Traits, ASnapshotWithoutAGroundHasNoHeights)
 {
     const std::string cloud = folder_.path("plumb.drc");
