@@ -222,6 +222,26 @@ TEST_F(Traits, WhatHasNoDateIsGivenNone)
     EXPECT_EQ(test::run(command + "--plot " + folder_.path("plots")).exit_code, 0);
 }
 
+TEST_F(Traits, ATextThatASpreadsheetWouldRunIsGuardedAndANumberIsNot)
+{
+    test::ArchiveFolder archive(folder_.path("odd"), "bench");
+    archive.done(1, noon(1), folder_.path("day1.drc"));
+    archive.missed(2, noon(2), "@SUM(A1), and -2");
+    std::ofstream(folder_.path("places.csv"))
+        << "name,min_x_mm,min_y_mm,min_z_mm,max_x_mm,max_y_mm,max_z_mm\n-basil,,,,,,\n";
+    ASSERT_EQ(test::run(std::string{DICOT_PROGRAM} + " traits " + folder_.path("odd") + " --cache " +
+                        folder_.path("cache") + " --plants " + folder_.path("places.csv") + " --csv " +
+                        folder_.path("out.csv"))
+                  .exit_code,
+              0);
+    const std::string csv = text_of(folder_.path("out.csv"));
+    EXPECT_THAT(csv, AllOf(HasSubstr(",'-basil,"), HasSubstr(",\"'@SUM(A1), and -2\",")));
+    const auto leaves = rows_of(text_of(folder_.path("out.leaves.csv")));
+    EXPECT_THAT(leaves.at(1), testing::Contains("'-basil"));
+    const auto x = static_cast<std::size_t>(std::ranges::find(leaves[0], "centre_x_mm") - leaves[0].begin());
+    EXPECT_TRUE(std::ranges::any_of(leaves, [x](const auto& leaf) { return leaf[x].starts_with('-'); })) << csv;
+}
+
 TEST_F(Traits, ASnapshotWithoutAGroundHasNoHeights)
 {
     const std::string cloud = folder_.path("plumb.drc");
