@@ -139,8 +139,15 @@ const scenarios = {
         check("a damaged cloud is told", (await page.locator("#message").textContent()).includes("damaged"), await page.locator("#message").textContent());
         await page.keyboard.press("Home");
         await ready(page, 1);
+        const pictures = await page.$$eval("figure img", (images) => images.map((image) => image.complete && image.naturalWidth));
+        check("both pictures are there", pictures.every((width) => width > 0), pictures);
         check("nothing is asked for on a network", noted.requests.every((request) => /^(file|data):/.test(request)), noted.requests);
         check("no script failed", noted.errors.every((error) => error.startsWith("Failed to load resource")), noted.errors);
+        const ran = await page.evaluate(() => {
+            document.head.append(Object.assign(document.createElement("script"), { textContent: "globalThis.strange = true" }));
+            return globalThis.strange === true;
+        });
+        check("a script that is not its own does not run", !ran && noted.errors.some((error) => /Content Security Policy/.test(error)), noted.errors);
     },
 
     async season() {

@@ -246,7 +246,9 @@ TEST_F(ViewServer, AnExportHasAFileForEachAnswer)
     const std::string into = root_ + "-export";
     const test::ToolRun run = dicot("view '" + root_ + "' --export '" + into + "'");
     ASSERT_EQ(run.exit_code, 0) << run.output;
-    EXPECT_THAT(test::text_of(into + "/index.html"), HasSubstr("data-source=\"files\""));
+    EXPECT_THAT(test::text_of(into + "/index.html").substr(0, 400),
+                AllOf(HasSubstr("data-source=\"files\""),
+                      HasSubstr("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'")));
     for (const std::string& path : site_->paths()) {
         const bool picture = path.ends_with(".jpg") || path.ends_with(".png");
         EXPECT_TRUE(fs::exists(into + "/" + path + (picture ? "" : ".js"))) << path;
