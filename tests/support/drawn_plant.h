@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <fstream>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -77,6 +78,21 @@ inline void write_points(const std::string& path, const std::vector<CloudPoint>&
 inline void write_plant(const std::string& path, const DrawnPlant& plant)
 {
     write_points(path, drawn_points(plant));
+}
+
+/// The same leaves before a thicket: a ray that meets the soil ends anywhere up to twice as far.
+inline void write_plant_in_thicket(const std::string& path, const DrawnPlant& plant)
+{
+    std::vector<CloudPoint> points = drawn_points(plant);
+    std::mt19937 random(7);
+    for (CloudPoint& point : points)
+        if (point.colour.r > point.colour.g) {
+            const double farther = 1 + static_cast<double>(random() % 1000) / 1000;
+            for (std::int32_t* axis : {&point.x, &point.y, &point.z})
+                *axis = static_cast<std::int32_t>(std::lround(*axis * farther));
+            point = as_stored(point);
+        }
+    write_points(path, points);
 }
 
 /// What is left of it in a night: a point here and there.

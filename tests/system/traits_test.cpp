@@ -244,8 +244,8 @@ TEST_F(Traits, ATextThatASpreadsheetWouldRunIsGuardedAndANumberIsNot)
 
 TEST_F(Traits, ASnapshotWithoutAGroundHasNoHeights)
 {
-    const std::string cloud = folder_.path("plumb.drc");
-    test::write_plant(cloud, {.radius_mm = 17, .down = 1}); // plumb from above, where no ground is looked for
+    const std::string cloud = folder_.path("thicket.drc");
+    test::write_plant_in_thicket(cloud, {.radius_mm = 17});
     archive_.done(8, noon(7), cloud);
     const auto rows = rows_of(traits("--csv").output);
     ASSERT_EQ(rows.size(), 9U);
