@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -63,6 +64,13 @@ public:
     Scene() : mm_(kPixels, 1e9), colour_(kPixels), name_(kPixels, 0)
     {
         paint(0, box(0, 0, kWidth, kHeight), level(0), kBrown);
+    }
+
+    /// Nothing is there, nor is the bench.
+    Scene& clear()
+    {
+        std::ranges::fill(mm_, 1e9);
+        return *this;
     }
 
     /// What is nearer hides what is farther.
@@ -171,6 +179,45 @@ TEST(Ground, IsTheBenchSeenFromAboveItsPlane)
     for (int axis = 0; axis < 3; ++axis)
         EXPECT_NEAR(ground.right[axis], right[axis], 5e-4);
     EXPECT_LT(ground.rms_mm, 1);
+}
+
+/// A plane at 600 mm that recedes by `lean` mm a mm downwards in the picture; discs 80 mm before it, at these places.
+Scene facing(double lean, const std::vector<std::pair<double, double>>& discs)
+{
+    Scene scene;
+    scene.clear().paint(0, box(0, 0, kWidth, kHeight), plane(600, 0, lean * 600 / kFocalPx), kBrown);
+    for (std::size_t i = 0; i < discs.size(); ++i)
+        scene.paint(static_cast<int>(i) + 1, ellipse(discs[i].first, discs[i].second, 60, 60), plane(520, 0, 0));
+    return scene;
+}
+
+TEST(Ground, IsWhatACameraLooksStraightDownAt)
+{
+    for (const double lean : {-0.3, 0.0, 0.3}) { // 17 degrees to either side
+        Scene scene = facing(lean, {{200, 160}, {420, 300}});
+        const GroundFrame ground = scene.look().leaves.ground;
+        ASSERT_EQ(ground.kind, GroundFrame::Kind::kBench) << lean;
+        const double slope = std::sqrt(1 + lean * lean);
+        const double up[3] = {0, lean / slope, -1 / slope}, away[3] = {0, -1 / slope, -lean / slope};
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_NEAR(ground.up[axis], up[axis], 2e-3) << lean;
+            EXPECT_NEAR(ground.away[axis], away[axis], 2e-3) << lean;
+            EXPECT_NEAR(ground.origin_mm[axis], -600 / slope * up[axis], 1.5) << lean;
+        }
+        EXPECT_NEAR(ground.right[0], 1, 2e-3);
+        EXPECT_EQ(scene.leaves.plant_count, 1);
+        EXPECT_GT(scene.overlap(1), 0.9);
+    }
+    // Plants all over the picture cross both edges.
+    Scene dense = facing(0, {{100, 20}, {330, 30}, {200, 240}, {120, 460}, {400, 450}});
+    EXPECT_EQ(dense.look().leaves.ground.kind, GroundFrame::Kind::kBench);
+}
+
+TEST(Ground, IsNoWallThatPlantsStandBefore)
+{
+    Scene scene = facing(0, {{320, 250}});
+    scene.paint(2, box(220, 290, 420, kHeight), plane(510, 0, 0), kBrown); // its pot stands on what is not seen
+    EXPECT_EQ(scene.look().leaves.ground.kind, GroundFrame::Kind::kNone);
 }
 
 TEST(Ground, MovesUpToTheSoilOfAPot)
