@@ -150,6 +150,21 @@ TEST(PlantTraits, a_flat_ellipse_has_its_axes_and_area_however_it_leans)
         }
 }
 
+TEST(PlantTraits, one_flat_leaf_is_not_taken_for_more_than_it_is_however_it_leans)
+{
+    for (const double slant_deg : {0.0, 15.0, 30.0, 45.0, 60.0, 70.0})
+        for (const double turn_deg : {0.0, 35.0, 90.0}) {
+            Drawn scene;
+            scene.wall();
+            draw_ellipse(scene, slant_deg * kDegree, turn_deg * kDegree);
+            const Measured area = scene.measured().plants[0].leaf_area_visible_mm2;
+            const double drawn_mm2 = std::numbers::pi * 20 * 40;
+            SCOPED_TRACE(testing::Message() << slant_deg << " deg, turned by " << turn_deg);
+            EXPECT_NEAR(area.value, drawn_mm2, 0.05 * drawn_mm2 + (slant_deg > 30 ? area.sd : 0));
+            EXPECT_LT(area.sd, 0.3 * drawn_mm2);
+        }
+}
+
 TEST(PlantTraits, noise_of_depth_does_not_lengthen_a_leaf)
 {
     Drawn scene;

@@ -17,9 +17,10 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDegrees = 180 / std::numbers::pi;
-/// Shares that no noise explains: how far from a tape's way the middles of the sections run, and how much of a surface
-/// seen at a slant the matcher makes flatter. From the whole leaves of the rendered plants.
-constexpr double kOutlineSd = 0.06, kFlattenedSd = 0.12;
+/// Shares that no noise explains: how far from a tape's way the middles of the sections run, and where a found leaf
+/// ends; how much of a surface seen at a slant the matcher makes flatter. And how far, as an angle, the normal turns by
+/// that and by `up`. From the whole leaves of the rendered plants.
+constexpr double kOutlineSd = 0.10, kFlattenedSd = 0.16, kTiltSd = 0.01;
 /// A leaf that something hides along less of its border is whole enough to be measured.
 constexpr double kHiddenShare = 0.08, kCutShare = 0.03;
 
@@ -122,7 +123,7 @@ void measure_leaf(const PlantView& view, const Leaves& leaves, const LeafSurface
 
     const double upright = std::min(1.0, dot(shape.frame.normal, up));
     const double tilt = root_of_squares(two * gaps.noise_mm / std::max(1.0, shape.width_mm),
-                                        leaves.ground.height_sd_mm / std::max(1.0, shape.length_mm));
+                                        leaves.ground.height_sd_mm / std::max(1.0, shape.length_mm), kTiltSd);
     leaf.inclination_deg = {std::acos(upright) * kDegrees, tilt * kDegrees};
     const double to_right = dot(points_to, vec3(leaves.ground.right)),
                  to_back = dot(points_to, vec3(leaves.ground.away));

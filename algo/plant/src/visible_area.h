@@ -7,14 +7,15 @@
 
 namespace dicot {
 
-/// The leaves of one plant, with what their points do not tell:
+/// The leaves of one plant: the surface of their blades, and what points do not tell of it.
 ///
-/// - A surface that is seen under more than 70 degrees has few cells, which the matcher makes flatter than they are: of
-///   10 mm2 it leaves 4. Per cosine it is taken for as much as there is between 48 and 70 degrees, as on leaves that
-///   are turned every way; that is a quarter to a half of the whole.
-/// - Cells without a point see as much as those with one, within a leaf and behind what stands in front of it.
+/// - Near its border a leaf is steeper than what is measured: it curls there, it is smoothed from one side alone, and
+///   the matcher makes it flatter. Not by the border cell's own slope, but by the leaf's.
+/// - Cells without a point see as much as those with one, and more, as it is steep surfaces that have none.
 ///
-/// One standard deviation: a quarter of the first, a third of the second, and the noise of z.
+/// Both by how much was found on rendered plants, and alike for each of six species when left out; neither adds
+/// anything to a leaf that faces the camera with nothing in front of it. One standard deviation: of each leaf all of
+/// the first, a third of the second, of the noise of z, and of what is taken for a leaf and is none.
 Measured visible_area(const PlantView& view, const Leaves& leaves, const LeafSurfaces& surfaces, int plant);
 
 } // namespace dicot
