@@ -125,6 +125,8 @@ const scenarios = {
         await page.waitForFunction(() => document.querySelectorAll("#curves circle").length > 0);
         const curves = await page.locator("#curves").innerHTML();
         check("so does the curve", curves.includes("&lt;i&gt;basil&lt;/i&gt;"), curves);
+        const beyond = await page.$$eval("#curves svg > *", (all) => all.filter((one) => one.getBBox().y < -1).length);
+        check("no band leaves its picture", beyond === 0, beyond);
         check("no error on the console", noted.errors.length === 0, noted.errors);
     },
 
