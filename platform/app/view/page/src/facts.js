@@ -43,7 +43,7 @@ export function showPlants(into, plants, chosenLeaf, choose) {
         return part;
     });
     const ground = { soil: "heights above the soil", bench: "heights above the bench", none: "no ground was found: heights and inclinations are not known" };
-    const words = plants.plants.length === 0 ? "No plant was found." : `${ground[plants.ground.kind]}; ± is one standard deviation`;
+    const words = !plants.grid ? "There are too few points to find plants in." : plants.plants.length === 0 ? "No plant was found." : `${ground[plants.ground.kind]}; ± is one standard deviation`;
     into.replaceChildren(element("h2", "", "Plants"), element("p", "note", words), ...parts);
 }
 
