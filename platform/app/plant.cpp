@@ -104,9 +104,10 @@ void add_plant(CLI::App& program, Command& chosen)
                      "plants by name: CSV with name, min_x_mm .. max_z_mm, boxes in the ground frame")
         ->type_name("FILE");
     command
-        ->add_option("-o,--output", words->output,
-                     "the cloud in the leaves' colours: .ply, with the leaf's and plant's number of each point, or "
-                     ".drc, without")
+        ->add_option(
+            "-o,--output", words->output,
+            "the cloud in the leaves' colours, with the number of its leaf for each point: .drc; with the plant's "
+            "too: .ply")
         ->type_name("FILE");
     command->add_option("--csv", words->csv, "a line a plant; and a line a leaf in NAME.leaves.csv")->type_name("FILE");
     command->add_option("--leaf-csv", words->leaf_csv, "a line a leaf, here")->type_name("FILE");
