@@ -13,6 +13,9 @@ const isBlue = (r, g, b) => b > 200 && r < 60 && g < 60;
 
 const distanceIn = async (page) => Number((await page.locator("#readout").textContent()).match(/^([\d.]+) mm/)?.[1]);
 
+const overlapping = (page) => page.$$eval(".tools", ([one, other]) => one.getBoundingClientRect().bottom > other.getBoundingClientRect().top
+    && one.getBoundingClientRect().right > other.getBoundingClientRect().left);
+
 async function fourthSlot(words) {
     const { url, server } = await serve(program, `${scene}/store`);
     return { ...await open(url, words), url, server };
@@ -27,6 +30,10 @@ const scenarios = {
         check("the cloud has many colours", colours.size > 50, colours.size);
         const pictures = await page.$$eval("figure img", (images) => images.map((image) => image.complete && image.naturalWidth));
         check("both pictures are there", pictures.every((width) => width > 0), pictures);
+        for (const width of [821, 900, 990, 991, 1280, 1920]) {
+            await page.setViewportSize({ width, height: 800 });
+            check("buttons stand beside each other", !await overlapping(page), width);
+        }
         check("nothing goes to another computer", noted.requests.every((request) => request.startsWith(url) || request.startsWith("data:")), noted.requests);
         check("no error on the console", noted.errors.length === 0, noted.errors);
     },
@@ -142,9 +149,7 @@ const scenarios = {
         check("nothing is wider than the screen", width <= 360, width);
         const scene = await page.locator("#scene").boundingBox();
         check("the cloud is in sight", scene.width > 300 && scene.height > 200 && scene.y < 100, scene);
-        const overlapping = await page.$$eval(".tools", ([one, other]) => one.getBoundingClientRect().bottom > other.getBoundingClientRect().top
-            && one.getBoundingClientRect().right > other.getBoundingClientRect().left);
-        check("buttons stand beside each other", !overlapping, overlapping);
+        check("buttons stand beside each other", !await overlapping(page), 360);
         await page.locator("#measure").tap();
         await page.locator("#scene").tap({ position: { x: scene.width / 2, y: scene.height / 2 } });
         const said = await page.locator("#readout").textContent();
