@@ -17,8 +17,8 @@ Status make_folder(const std::string& path)
     if (::stat(path.c_str(), &there) == 0 &&
         S_ISDIR(there.st_mode)) // asked afterwards: another process may make it too
         return {};
-    return failure(Fault::kCannotCreate, "%s: cannot be created as a folder (%s): name another one", path.c_str(),
-                   std::strerror(error));
+    return failure(Fault::kCannotCreate, "%s: cannot be created as a folder (%s): %s", path.c_str(),
+                   std::strerror(error), error == ENOENT ? "make the folder around it first" : "name another one");
 }
 
 } // namespace dicot::app

@@ -99,11 +99,18 @@ void add_plant(CLI::App& program, Command& chosen)
     auto words = std::make_shared<PlantWords>();
     command->add_option("CLOUD", words->cloud, "cloud file (.drc), or the number of a slot, as dicot list has it")
         ->required();
-    command->add_option("--plants", words->places,
-                        "plants by name: CSV with name, min_x_mm .. max_z_mm, boxes in the ground frame");
-    command->add_option("-o,--output", words->output, "the cloud in the leaves' colours: .ply (with numbers) or .drc");
-    command->add_option("--csv", words->csv, "a line a plant; and a line a leaf in NAME.leaves.csv");
-    command->add_option("--leaf-csv", words->leaf_csv, "a line a leaf, here");
+    command
+        ->add_option("--plants", words->places,
+                     "plants by name: CSV with name, min_x_mm .. max_z_mm, boxes in the ground frame")
+        ->type_name("FILE");
+    command
+        ->add_option(
+            "-o,--output", words->output,
+            "the cloud in the leaves' colours, with the number of its leaf for each point: .drc; with the plant's "
+            "too: .ply")
+        ->type_name("FILE");
+    command->add_option("--csv", words->csv, "a line a plant; and a line a leaf in NAME.leaves.csv")->type_name("FILE");
+    command->add_option("--leaf-csv", words->leaf_csv, "a line a leaf, here")->type_name("FILE");
     command->add_flag("--json", words->json, "report as JSON, laid out as PlantCV's results");
     words->store.add_to(*command);
     command->callback([words, &chosen] { chosen = [words] { return run(*words); }; });

@@ -1,6 +1,7 @@
 // dicot traits: what grew in an archive, as tables, curves and pictures.
 #include "commands.h"
 #include "distinct_files.h"
+#include "output_folder.h"
 #include "pull/archive_folder.h"
 #include "stop_request.h"
 #include "store/shown.h"
@@ -101,6 +102,17 @@ Status check_outputs(const TraitsWords& words)
                       : Status{};
 }
 
+/// What cannot be written is said before a season is measured.
+Status try_outputs(const TraitsWords& words)
+{
+    if (!words.csv.empty() && words.csv != kStandardOutput)
+        for (const std::string& table : {words.csv, beside_table(words.csv)}) {
+            OutputFile can_be_written;
+            TRY(can_be_written.open(table.c_str()));
+        }
+    return words.plot.empty() ? Status{} : make_folder(words.plot);
+}
+
 Status write_tables(const std::string& path, const Report& report)
 {
     if (path == kStandardOutput) {
@@ -122,6 +134,7 @@ Status run(const TraitsWords& words)
     if (boards.empty())
         return failure(Fault::kNoInput, "%s: there is no board%s%s in it", shown(archive).c_str(),
                        words.device.empty() ? "" : " called ", shown(words.device).c_str());
+    TRY(try_outputs(words));
     const StopRequest stop;
     StoreOutcome worst(FoundStores{});
     Report report;

@@ -43,10 +43,11 @@ CloudMeta full_meta()
     return meta;
 }
 
-File encoded(const std::vector<CloudPoint>& points, const CloudGrid& grid, const CloudMeta& meta = {})
+File encoded(const std::vector<CloudPoint>& points, const CloudGrid& grid, const CloudMeta& meta = {},
+             const std::vector<std::uint16_t>& leaf = {})
 {
-    File heap(encode_heap_bytes(points.size()));
-    const Result<EncodedCloud> result = encode_cloud({points, grid}, meta, heap);
+    File heap(encode_heap_bytes(points.size()) + leaf.size() * kLeafHeapBytes);
+    const Result<EncodedCloud> result = encode_cloud({points, grid}, meta, heap, leaf);
     EXPECT_TRUE(result.ok()) << result.status().message();
     if (!result.ok())
         return {};
@@ -290,6 +291,42 @@ TEST(Codec, DracoSeesTheAttributesOfTheFormat)
     EXPECT_EQ(text("skew_us"), "-350");
 }
 
+/// Of one leaf, of none, and of the last one that has a number.
+std::vector<std::uint16_t> leaves_of(std::size_t points)
+{
+    std::vector<std::uint16_t> leaf(points);
+    for (std::size_t i = 0; i < points; ++i)
+        leaf[i] = static_cast<std::uint16_t>(i % 7 == 0 ? 65535 : i % 3 == 0 ? 0 : 1 + i / 50);
+    return leaf;
+}
+
+TEST(Codec, LeavesAreANamedAttributeThatDracoReadsAndTheRestIsAsWithoutThem)
+{
+    const CloudGrid grid = grid_of(14);
+    const auto points = test::random_points(grid, 1000, 12);
+    const auto leaf = leaves_of(points.size());
+    const File file = encoded(points, grid, full_meta(), leaf);
+    draco::DecoderBuffer buffer;
+    buffer.Init(reinterpret_cast<const char*>(file.data()), file.size());
+    draco::Decoder decoder;
+    const auto cloud = std::move(decoder.DecodePointCloudFromBuffer(&buffer)).value();
+    ASSERT_EQ(cloud->num_attributes(), 4);
+    const auto* named = cloud->metadata()->GetAttributeMetadataByStringEntry("name", "leaf");
+    ASSERT_NE(named, nullptr);
+    const auto* numbers = cloud->attribute(cloud->GetAttributeIdByUniqueId(named->att_unique_id()));
+    EXPECT_EQ(numbers->data_type(), draco::DT_UINT16);
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        std::uint16_t number = 0;
+        numbers->GetMappedValue(draco::PointIndex(i), &number);
+        ASSERT_EQ(number, leaf[i]) << i;
+    }
+    EXPECT_TRUE(outline_of(file, "cloud.drc").value().has_leaves);
+    const File bare = encoded(points, grid, full_meta());
+    EXPECT_FALSE(outline_of(bare, "cloud.drc").value().has_leaves);
+    EXPECT_TRUE(std::ranges::equal(decoded(file).value(), decoded(bare).value(), same));
+    EXPECT_TRUE(decoded(encoded(points, grid, {}, std::vector<std::uint16_t>(points.size()))).ok()) << "no leaf at all";
+}
+
 TEST(Codec, SenselessCloudsAreRefused)
 {
     File heap(encode_heap_bytes(1));
@@ -301,26 +338,31 @@ TEST(Codec, SenselessCloudsAreRefused)
     EXPECT_EQ(encode_cloud({outside, grid_of(14)}, {}, heap).status().fault(), Fault::kSoftware);
     const std::vector<CloudPoint> many(kMaxCloudPoints + 1);
     EXPECT_EQ(encode_cloud({many, grid_of(14)}, {}, heap).status().fault(), Fault::kConfig);
+    const std::vector<std::uint16_t> two{1, 2};
+    const std::vector<CloudPoint> one{{0, 0, 6000, {}, 0}};
+    EXPECT_EQ(encode_cloud({one, grid_of(14)}, {}, heap, two).status().fault(), Fault::kSoftware);
 }
 
 TEST(HostileCloud, TruncatedFilesAreRefused)
 {
     const auto points = test::random_points(grid_of(14), 300, 5);
-    const File whole = encoded(points, grid_of(14), full_meta());
-    for (std::size_t size = 0; size < whole.size(); ++size) {
-        const File part(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
-        EXPECT_EQ(decoded(part).status().fault(), Fault::kBadData) << size;
-    }
+    for (const File& whole : {encoded(points, grid_of(14), full_meta()),
+                              encoded(points, grid_of(14), full_meta(), leaves_of(points.size()))})
+        for (std::size_t size = 0; size < whole.size(); ++size) {
+            const File part(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
+            EXPECT_EQ(decoded(part).status().fault(), Fault::kBadData) << size;
+        }
 }
 
 TEST(HostileCloud, FlippedBitsAreRefusedOrGiveACloudOnTheGrid)
 {
     const auto points = test::random_points(grid_of(14), 300, 6);
-    const File whole = encoded(points, grid_of(14), full_meta());
+    const File without = encoded(points, grid_of(14), full_meta());
+    const File with = encoded(points, grid_of(14), full_meta(), leaves_of(points.size()));
     std::mt19937 random{99};
     int refused = 0;
     for (int round = 0; round < 4000; ++round) {
-        File file = whole;
+        File file = round % 2 == 0 ? without : with;
         for (int flips = round % 3; flips >= 0; --flips)
             file[random() % file.size()] ^= static_cast<std::byte>(1U << random() % 8);
         const auto back = decoded(file);

@@ -163,6 +163,7 @@ TEST_F(Plant, in_the_colours_of_its_leaves_is_a_cloud_that_others_read)
     ASSERT_EQ(plant(cloud_ + " -o " + folder_.path("leaves.drc")).exit_code, 0);
     const ToolRun info = test::run(std::string{DICOT_PROGRAM} + " info " + folder_.path("leaves.drc"));
     EXPECT_THAT(info.output, HasSubstr("points: 76800"));
+    EXPECT_EQ(plant(folder_.path("leaves.drc")).exit_code, 0) << "it is a cloud as any other";
 }
 
 TEST_F(Plant, of_a_stored_slot_is_that_of_its_cloud)

@@ -364,6 +364,38 @@ TEST_F(Traits, PlantsBearTheNamesOfTheirPlaces)
     EXPECT_EQ(traits("--plants " + folder_.path("nowhere.csv")).exit_code, 66);
 }
 
+TEST_F(Traits, AnOutputThatCannotBeIsSaidBeforeAnythingIsMeasured)
+{
+    for (const char* words : {"--csv nowhere/t.csv", "--plot nowhere/plots"}) {
+        EXPECT_EQ(traits(words).exit_code, 73) << words;
+        EXPECT_EQ(report()["boards"][0]["from_cache"], 0) << words;
+        fs::remove_all(folder_.path("cache"));
+    }
+}
+
+TEST_F(Traits, TheUncertaintyOfAPlantThatDoesNotGrowIsWithinItsPicture)
+{
+    test::ArchiveFolder archive(folder_.path("still"), "bench");
+    for (const int day : {1, 2, 3}) {
+        test::write_plant(folder_.path("still.drc"), {.radius_mm = 15 + 0.01 * day, .slope = 0.7}); // steep: less sure
+        archive.done(day, noon(day), folder_.path("still.drc"));
+    }
+    const std::string command = std::string{DICOT_PROGRAM} + " traits " + folder_.path("still") + " --cache " +
+                                folder_.path("cache") + " --plot " + folder_.path("plots") + " --csv";
+    const auto rows = rows_of(test::run(command).output);
+    ASSERT_EQ(rows.size(), 4U);
+    const auto sd = static_cast<std::size_t>(std::ranges::find(rows[0], "leaf_area_visible_mm2_sd") - rows[0].begin());
+    const double sd_cm2 = std::stod(rows[1][sd]) / 100;
+    EXPECT_GT(sd_cm2, 0.1);
+    const std::string svg = text_of(folder_.path("plots/bench_plant1_leaf_area_visible_mm2.svg"));
+    std::vector<double> marks; // of the value axis
+    const std::string label = "class=\"label end\">";
+    for (std::size_t at = svg.find(label); at != std::string::npos; at = svg.find(label, at + 1))
+        marks.push_back(std::stod(svg.substr(at + label.size(), 12)));
+    ASSERT_GE(marks.size(), 2U);
+    EXPECT_GE(std::abs(marks.back() - marks.front()), 2 * sd_cm2);
+}
+
 TEST_F(Traits, WordsThatAreWrongAreRefused)
 {
     EXPECT_EQ(traits("--since yesterday").exit_code, 64);

@@ -2,7 +2,7 @@
 //
 // SCENE is what view_page_test.cpp makes: `store` with the slots 1 (done), 2 (missed), 3 (done, its cloud damaged), 4 (done);
 // `known.drc`, a grey wall with a red and a blue patch whose distance is 314.36 mm; `exported`, the store as files; `beds`, two days of a
-// plant with four leaves, and `beds.csv`, its name.
+// plant with four leaves and a night of a few points, and `beds.csv`, its name.
 import { existsSync } from "node:fs";
 import { check, histogram, middleOf, open, pixels, ready, serve } from "./browser.mjs";
 
@@ -12,6 +12,9 @@ const isRed = (r, g, b) => r > 200 && g < 60 && b < 60;
 const isBlue = (r, g, b) => b > 200 && r < 60 && g < 60;
 
 const distanceIn = async (page) => Number((await page.locator("#readout").textContent()).match(/^([\d.]+) mm/)?.[1]);
+
+const overlapping = (page) => page.$$eval(".tools", ([one, other]) => one.getBoundingClientRect().bottom > other.getBoundingClientRect().top
+    && one.getBoundingClientRect().right > other.getBoundingClientRect().left);
 
 async function fourthSlot(words) {
     const { url, server } = await serve(program, `${scene}/store`);
@@ -27,6 +30,10 @@ const scenarios = {
         check("the cloud has many colours", colours.size > 50, colours.size);
         const pictures = await page.$$eval("figure img", (images) => images.map((image) => image.complete && image.naturalWidth));
         check("both pictures are there", pictures.every((width) => width > 0), pictures);
+        for (const width of [821, 900, 990, 991, 1280, 1920]) {
+            await page.setViewportSize({ width, height: 800 });
+            check("buttons stand beside each other", !await overlapping(page), width);
+        }
         check("nothing goes to another computer", noted.requests.every((request) => request.startsWith(url) || request.startsWith("data:")), noted.requests);
         check("no error on the console", noted.errors.length === 0, noted.errors);
     },
@@ -116,6 +123,11 @@ const scenarios = {
     async plants() {
         const { url } = await serve(program, `${scene}/beds`, "--plants", `${scene}/beds.csv`);
         const { page, noted } = await open(url);
+        await ready(page, 3);
+        const words = await page.locator("#plants").textContent();
+        check("too few points are told", words.includes("too few points"), words);
+        check("and drawn as points", histogram(await pixels(page)).size > 1, "nothing");
+        await page.keyboard.press("ArrowLeft");
         await ready(page, 2);
         await page.waitForFunction(() => document.querySelectorAll("#plants summary").length > 0);
         const names = await page.$$eval("#plants summary", (all) => all.map((one) => one.textContent));
@@ -125,7 +137,9 @@ const scenarios = {
         await page.waitForFunction(() => document.querySelectorAll("#curves circle").length > 0);
         const curves = await page.locator("#curves").innerHTML();
         check("so does the curve", curves.includes("&lt;i&gt;basil&lt;/i&gt;"), curves);
-        check("no error on the console", noted.errors.length === 0, noted.errors);
+        const beyond = await page.$$eval("#curves svg > *", (all) => all.filter((one) => one.getBBox().y < -1).length);
+        check("no band leaves its picture", beyond === 0, beyond);
+        check("no script failed", noted.errors.every((error) => error.startsWith("Failed to load resource")), noted.errors);
     },
 
     async phone() {
@@ -135,9 +149,7 @@ const scenarios = {
         check("nothing is wider than the screen", width <= 360, width);
         const scene = await page.locator("#scene").boundingBox();
         check("the cloud is in sight", scene.width > 300 && scene.height > 200 && scene.y < 100, scene);
-        const overlapping = await page.$$eval(".tools", ([one, other]) => one.getBoundingClientRect().bottom > other.getBoundingClientRect().top
-            && one.getBoundingClientRect().right > other.getBoundingClientRect().left);
-        check("buttons stand beside each other", !overlapping, overlapping);
+        check("buttons stand beside each other", !await overlapping(page), 360);
         await page.locator("#measure").tap();
         await page.locator("#scene").tap({ position: { x: scene.width / 2, y: scene.height / 2 } });
         const said = await page.locator("#readout").textContent();

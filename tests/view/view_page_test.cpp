@@ -68,6 +68,8 @@ protected:
         test::ArchiveFolder beds(scene() + "/beds", "bench");
         for (const int day : {1, 2})
             beds.done(day, "2026-06-0" + std::to_string(day) + "T12:00:00Z", scene() + "/plant.drc");
+        test::write_specks(scene() + "/specks.drc", {.leaves = 4});
+        beds.done(3, "2026-06-03T12:00:00Z", scene() + "/specks.drc");
         std::ofstream(scene() + "/beds.csv") << "name,min_x_mm,min_y_mm,min_z_mm,max_x_mm,max_y_mm,max_z_mm\n"
                                                 "<i>basil</i>,,,,,,\nempty,-9000,-9000,,-8000,-8000,\n";
     }

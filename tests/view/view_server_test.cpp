@@ -261,6 +261,23 @@ TEST_F(ViewServer, PlantsBearTheNamesOfTheirPlaces)
     EXPECT_TRUE(curves[1]["series"].empty()) << curves[1];
 }
 
+TEST_F(ViewServer, WhatHasNoDateIsGivenNone)
+{
+    const std::string archive = root_ + "-dateless";
+    test::write_plant(root_ + ".drc", {.leaves = 4});
+    test::ArchiveFolder(archive, "bench").done(1, "2026-06-01T12:00:00Z", root_ + ".drc");
+    test::ArchiveFolder unset(archive, "bench", "UTC", "not set");
+    unset.done(2, "1970-01-01T00:01:00Z", root_ + ".drc");
+    const auto site = ViewSite::open(archive, wishes());
+    ASSERT_TRUE(site.ok()) << site.status().message();
+    site.value()->wait_for_growth();
+    EXPECT_EQ(json::parse(*site.value()->answer("data/0/slots.json").body).at("time_s"), (json{1780315200, nullptr}));
+    const json series =
+        json::parse(*site.value()->answer("data/0/curves.json").body)["plants"][0]["series"]["leaf_count"];
+    EXPECT_EQ(series["time_s"], (json{1780315200.0, nullptr}));
+    EXPECT_TRUE(series["value"][1].is_null());
+}
+
 TEST_F(ViewServer, APlantsTableThatIsMissingOrWrongIsRefusedBeforeAnythingIsServed)
 {
     const std::string view = "view '" + root_ + "' --no-open --plants '" + root_;

@@ -6,15 +6,19 @@
 #include "dicot/os/shown_path.h"
 
 #include <cmath>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace dicot::app {
 namespace {
 
-Status write_drc(const std::string& path, const PointCloud& cloud, const CloudMeta& meta)
+Status write_drc(const std::string& path, const PointCloud& cloud, const CloudMeta& meta,
+                 std::span<const std::uint16_t> leaf)
 {
-    const MemoryBlock heap = TRY(MemoryBlock::map(encode_heap_bytes(cloud.points.size())));
-    const EncodedCloud encoded = TRY(encode_cloud(cloud, meta, heap.bytes()));
+    const MemoryBlock heap =
+        TRY(MemoryBlock::map(encode_heap_bytes(cloud.points.size()) + leaf.size() * kLeafHeapBytes));
+    const EncodedCloud encoded = TRY(encode_cloud(cloud, meta, heap.bytes(), leaf));
     OutputFile file;
     TRY(file.open(path.c_str()));
     TRY(file.write(encoded.bytes));
@@ -50,7 +54,7 @@ Status write_leaf_cloud(const std::string& path, const PlantWork& work, const Cl
         points[i].colour = leaves.leaf[i] != Leaves::kNone ? leaf_colour(leaves.leaf[i]) : grey(points[i].colour);
     const PointCloud coloured{points, cloud.grid};
     if (path.ends_with(".drc"))
-        return write_drc(path, coloured, meta);
+        return write_drc(path, coloured, meta, leaves.leaf);
     if (path.ends_with(".ply"))
         return write_ply(path.c_str(), coloured, meta, {leaves.leaf, leaves.plant});
     return failure(Fault::kUsage, "%s: the name must end in .drc or .ply", shown_path(path.c_str()));

@@ -92,6 +92,11 @@ private:
 
 } // namespace
 
+bool is_rate_known(const GrowthPoint& point)
+{
+    return point.rate_per_day.sd < std::fabs(point.value.value);
+}
+
 bool is_dated(const SlotRow& row)
 {
     return row.clock_trust.view() != "not set";

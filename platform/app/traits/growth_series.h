@@ -30,6 +30,9 @@ private:
     std::int64_t midnight_us_ = 0;
 };
 
+/// Not where a day could double the plant for all that is known, as between two snapshots alone.
+bool is_rate_known(const GrowthPoint& point);
+
 /// Whether a row says when it was.
 bool is_dated(const SlotRow& row);
 

@@ -67,10 +67,10 @@ Scale value_scale(double low, double high, const std::string& unit)
     return Scale::around(low, high, 5, unit);
 }
 
-std::string digits(double value)
+int decimals_of(double value)
 {
     const double size = std::abs(value);
-    return fixed(value, size >= 100 ? 0 : size >= 1 ? 1 : 3);
+    return size >= 100 ? 0 : size >= 1 ? 1 : 3;
 }
 
 /// What stands for a plot in words: the end of the curve.
@@ -81,9 +81,12 @@ std::string newest_words(const TraitSeries& series)
             continue;
         const double scale = series.column->drawn_units;
         const std::string unit = *series.column->drawn_unit == 0 ? "" : std::string{" "} + series.column->drawn_unit;
-        std::string text = digits(scale * point->value.value) + unit;
-        if (const double rate = scale * point->rate_per_day.value; std::isfinite(rate))
-            text += fill(", {}{}{} a day", {rate >= 0 ? "+" : "", digits(rate), unit});
+        const double value = scale * point->value.value;
+        std::string text = fixed(value, decimals_of(value)) + unit;
+        if (!is_rate_known(*point))
+            return text;
+        const double rate = scale * point->rate_per_day.value;
+        text += fill(", {}{}{} a day", {rate >= 0 ? "+" : "", fixed(rate, decimals_of(value) + 1), unit});
         if (std::isfinite(point->relative_rate_per_day.value))
             text += fill(" ({} %)", {fixed(100 * point->relative_rate_per_day.value, 1)});
         return text;
@@ -131,7 +134,7 @@ std::string drawn_series(const BoardGrowth& growth, const TraitSeries& series, c
 {
     const double scale = series.column->drawn_units;
     std::vector<PlotPoint> used, outliers;
-    double low = 1e300, high = -1e300, from = 1e300, to = -1e300;
+    double low = 1e300, high = -1e300, least = 1e300, from = 1e300, to = -1e300;
     for (std::size_t k = 0; k < series.samples.size(); ++k) {
         if (series.fit.samples[k].use == SampleFit::Use::kUnmeasured)
             continue;
@@ -139,11 +142,16 @@ std::string drawn_series(const BoardGrowth& growth, const TraitSeries& series, c
         const bool is_used = series.fit.samples[k].use == SampleFit::Use::kUsed;
         const double value = scale * sample.measured.value;
         (is_used ? used : outliers).emplace_back(sample.day, value);
-        low = std::min(low, value);
-        high = std::max(high, value);
+        // Without its sd the noise of a plant that does not grow would fill the picture.
+        const double sd = std::isfinite(sample.measured.sd) ? scale * sample.measured.sd : 0;
+        least = std::min(least, value);
+        low = std::min(low, value - sd);
+        high = std::max(high, value + sd);
         from = std::min(from, sample.day);
         to = std::max(to, sample.day);
     }
+    if (least >= 0)
+        low = std::max(low, 0.0);
     Plot plot(kWidth, kHeight, time_scale(growth.days, from, to), value_scale(low, high, series.column->drawn_unit),
               title);
     draw_gaps(plot, growth, from, to);
@@ -247,13 +255,18 @@ std::vector<DrawnPlot> growth_plots(const BoardTraits& board, const BoardGrowth&
 Status write_plots(const std::string& folder, const std::vector<DrawnPlot>& plots)
 {
     TRY(make_folder(folder));
+    constexpr const char* kNarrow =
+        "@media (max-width:700px){figure{overflow-x:auto}figure svg{width:760px;max-width:none}}"; // or texts are too
+                                                                                                   // small
     std::string page =
         fill("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>"
              "<meta name=\"viewport\" content=\"width=device-width\"/><title>Growth</title>"
-             "<style>{}</style></head>\n<body><h1>Growth</h1>\n<p class=\"note\">Dots are snapshots, rings "
+             "<style>{}{}</style></head>\n<body><h1>Growth</h1>\n<p class=\"note\">Dots are snapshots, rings "
              "outliers that the curve is made without; the band is two standard deviations; shaded is "
              "where snapshots are missing (point at it for the reason).</p>\n",
-             {kReportStyle});
+             {kReportStyle, kNarrow});
+    if (plots.empty())
+        page += "<p>Nothing was measured in these snapshots.</p>\n";
     for (const DrawnPlot& plot : plots) {
         TRY(write_text(folder + "/" + plot.file, svg::standalone(plot.svg)));
         page += fill("<h3>{}</h3>\n<figure>{}</figure>\n", {escaped(plot.title), plot.svg});

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <span>
 
@@ -14,24 +15,33 @@ namespace {
 
 constexpr std::size_t kMostGaps = 6;
 
+/// Filled up to so many characters; what begins with 10 in UTF-8 is none of its own.
+std::string padded(std::string text, std::ptrdiff_t width)
+{
+    const auto characters =
+        std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+    text.append(static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, width - characters)), ' ');
+    return text;
+}
+
 std::string series_line(const TraitSeries& series)
 {
     const auto newest = std::find_if(series.fit.curve.rbegin(), series.fit.curve.rend(),
                                      [](const GrowthPoint& point) { return std::isfinite(point.value.value); });
     if (newest == series.fit.curve.rend())
         return "";
+    const double scale = series.column->drawn_units;
     char line[200];
-    std::snprintf(line, sizeof line, "  %-22s %11.5g +- %-8.3g", series.column->name, newest->value.value,
-                  newest->value.sd);
-    std::string text = line;
-    if (std::isfinite(newest->rate_per_day.value)) {
-        std::snprintf(line, sizeof line, " %+10.4g +- %-7.2g a day", newest->rate_per_day.value,
-                      newest->rate_per_day.sd);
+    std::snprintf(line, sizeof line, "%9.1f +- %-7.1f", scale * newest->value.value, scale * newest->value.sd);
+    std::string text = "  " + padded(series.column->words, 34) + line + padded(series.column->drawn_unit, 4);
+    if (is_rate_known(*newest)) {
+        std::snprintf(line, sizeof line, "%+9.1f +- %-7.1f a day", scale * newest->rate_per_day.value,
+                      scale * newest->rate_per_day.sd);
         text += line;
-    }
-    if (std::isfinite(newest->relative_rate_per_day.value)) {
-        std::snprintf(line, sizeof line, " (%+.1f %%)", 100 * newest->relative_rate_per_day.value);
-        text += line;
+        if (std::isfinite(newest->relative_rate_per_day.value)) {
+            std::snprintf(line, sizeof line, " (%+.1f %%)", 100 * newest->relative_rate_per_day.value);
+            text += line;
+        }
     }
     if (series.fit.outliers > 0)
         text += "; " + counted(series.fit.outliers, "outlier");

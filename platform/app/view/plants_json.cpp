@@ -61,12 +61,14 @@ std::string plants_json(const PlantWork& work, const GridPlace& place)
     json leaves = json::array();
     for (const LeafTraits& leaf : work.traits().leaves)
         leaves.push_back(json_of(leaf));
-    return json_text({{"grid",
-                       {{"width", place.width},
-                        {"height", place.height},
-                        {"focal_px", view.focal_px},
-                        {"cx_px", view.cx_px + place.column},
-                        {"cy_px", view.cy_px + place.row}}},
+    json grid; // null of too few points
+    if (!view.too_few)
+        grid = {{"width", place.width},
+                {"height", place.height},
+                {"focal_px", view.focal_px},
+                {"cx_px", view.cx_px + place.column},
+                {"cy_px", view.cy_px + place.row}};
+    return json_text({{"grid", grid},
                       {"ground",
                        {{"kind", name_of(ground.kind)},
                         {"origin_mm", ground.origin_mm},

@@ -3,6 +3,7 @@
 #include "../cloud_on_disk.h"
 #include "../store/shown.h"
 #include "../store/slot_words.h"
+#include "../traits/growth_series.h"
 
 #include "dicot/base/utc_time.h"
 #include "dicot/medium/disk_medium.h"
@@ -165,7 +166,7 @@ json ViewBoard::slots_json() const
     std::map<std::string, std::size_t, std::less<>> known;
     for (const SlotRow& row : slots_) {
         sequence.push_back(row.sequence);
-        time_s.push_back(time_known_ ? json(row.began_us / 1'000'000) : json());
+        time_s.push_back(time_known_ && is_dated(row) ? json(row.began_us / 1'000'000) : json());
         state += state_letter(row);
         if (row.reason.view().empty()) {
             reason.push_back(-1);

@@ -234,8 +234,11 @@ std::shared_ptr<const ViewSite::Seen> ViewSite::seen(const Board& board, const S
         if (const Result<std::string> left = board.slots->read(row, "left.jpg"); left.ok())
             if (const Result<OwnPicture> picture = OwnPicture::decode(left.value(), "left.jpg"); picture.ok())
                 place = place_in_picture(plants.view(), picture.value().view);
-        made->left = answer_of(kJpeg, jpeg_of(picture_of(plants.view()).view));
-        made->disparity = answer_of(kPng, png_of(disparity_of(plants.view(), place).view));
+        made->left = made->disparity = not_there(); // too few points make no picture
+        if (!plants.view().too_few) {
+            made->left = answer_of(kJpeg, jpeg_of(picture_of(plants.view()).view));
+            made->disparity = answer_of(kPng, png_of(disparity_of(plants.view(), place).view));
+        }
         made->plants = answer_of(kJson, plants_json(plants, place));
         made->leaves = answer_of(kBytes, leaf_bytes(plants.leaves()));
         return {};

@@ -4,6 +4,7 @@
 #include "dicot/os/shown_path.h"
 #include "packed_points.h"
 
+#include <cstdint>
 #include <exception>
 
 namespace dicot {
@@ -16,11 +17,11 @@ constexpr std::size_t kDecodeBytesFixed = std::size_t{8} << 20;
 /// Puts one attribute where it belongs; confidences as they stand in the file. False: a value that none can be.
 bool place(Part part, std::span<const std::int32_t> values, const CloudGrid& grid, std::span<CloudPoint> points)
 {
-    const std::int32_t last = part == Part::kPosition ? (1 << grid.bits) - 1 : 255;
+    const std::int32_t last = part == Part::kPosition ? (1 << grid.bits) - 1 : part == Part::kLeaf ? UINT16_MAX : 255;
     for (const std::int32_t value : values)
         if (value < 0 || value > last)
             return false;
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t i = 0; i < points.size() && part != Part::kLeaf; ++i) {
         const std::int32_t* read = values.data() + i * components_of(part);
         const auto byte = [read](int component) { return static_cast<std::uint8_t>(read[component]); };
         CloudPoint& point = points[i];

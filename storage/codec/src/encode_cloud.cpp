@@ -61,33 +61,43 @@ int add_attribute(draco::PointCloud& cloud, draco::GeometryAttribute::Type type,
     return cloud.AddAttribute(attribute, true, 0);
 }
 
-void describe(draco::PointCloud& into, const PointCloud& cloud, const CloudMeta& meta, int confidence_id)
+void name(draco::PointCloud& cloud, int attribute, const char* as)
 {
     auto named = std::make_unique<draco::AttributeMetadata>();
-    named->AddEntryString("name", "confidence");
-    into.AddAttributeMetadata(confidence_id, std::move(named));
+    named->AddEntryString("name", as);
+    cloud.AddAttributeMetadata(attribute, std::move(named));
+}
+
+void describe(draco::PointCloud& into, const PointCloud& cloud, const CloudMeta& meta)
+{
     const MetaEntries known = entries_of(meta, cloud.grid);
     for (int i = 0; i < known.count; ++i)
         into.metadata()->AddEntryString(known.entries[i].key, known.entries[i].text.c_str());
 }
 
 /// False: Draco refused.
-bool pack(const PointCloud& cloud, const CloudMeta& meta, draco::EncoderBuffer& out)
+bool pack(const PointCloud& cloud, const CloudMeta& meta, std::span<const std::uint16_t> leaf,
+          draco::EncoderBuffer& out)
 {
     draco::PointCloud described; // attributes that are added before it has points take no memory for values
     add_attribute(described, draco::GeometryAttribute::POSITION, draco::DT_FLOAT32, 3, false);
     add_attribute(described, draco::GeometryAttribute::COLOR, draco::DT_UINT8, 3, true);
     const int confidence = add_attribute(described, draco::GeometryAttribute::GENERIC, draco::DT_FLOAT32, 1, false);
+    name(described, confidence, "confidence");
+    if (!leaf.empty())
+        name(described, add_attribute(described, draco::GeometryAttribute::GENERIC, draco::DT_UINT16, 1, false),
+             "leaf");
     described.set_num_points(static_cast<std::uint32_t>(cloud.points.size()));
-    describe(described, cloud, meta, confidence);
-    return CloudEncoder(described, cloud).Encode(draco::EncoderOptions::CreateDefaultOptions(), &out).ok();
+    describe(described, cloud, meta);
+    return CloudEncoder(described, cloud, leaf).Encode(draco::EncoderOptions::CreateDefaultOptions(), &out).ok();
 }
 
 /// The decoded values of one attribute beside the points that were meant.
 class Comparison
 {
 public:
-    Comparison(const PointCloud& cloud, CloudProof& proof) : cloud_(cloud), proof_(proof)
+    Comparison(const PointCloud& cloud, std::span<const std::uint16_t> leaf, CloudProof& proof)
+        : cloud_(cloud), leaf_(leaf), proof_(proof)
     {
         const Quantisation grid = position_quantisation(cloud.grid);
         std::copy_n(grid.least, kMostComponents, origin_m_);
@@ -103,7 +113,8 @@ public:
                               : part == Part::kColour ? read[0] == stored_channel(meant.colour.r) &&
                                                             read[1] == stored_channel(meant.colour.g) &&
                                                             read[2] == stored_channel(meant.colour.b)
-                                                      : read[0] == stored_confidence(meant.confidence);
+                              : part == Part::kLeaf ? read[0] == leaf_[i]
+                                                    : read[0] == stored_confidence(meant.confidence);
             if (!same)
                 return false;
         }
@@ -129,15 +140,17 @@ private:
     }
 
     const PointCloud& cloud_;
+    std::span<const std::uint16_t> leaf_;
     CloudProof& proof_;
     draco::Dequantizer metres_;
     float origin_m_[kMostComponents] = {};
 };
 
-Result<CloudProof> prove(const PointCloud& cloud, std::span<const std::byte> file)
+Result<CloudProof> prove(const PointCloud& cloud, std::span<const std::uint16_t> leaf, std::span<const std::byte> file)
 {
     const Result<CloudOutline> read = outline_of(file, "the encoded cloud");
-    if (!read.ok() || read.value().points != cloud.points.size() || read.value().grid != cloud.grid)
+    if (!read.ok() || read.value().points != cloud.points.size() || read.value().grid != cloud.grid ||
+        read.value().has_leaves == leaf.empty())
         return failure(Fault::kSoftware, "the encoded cloud is announced as another one: report this");
     CloudProof proof;
     proof.points = static_cast<std::uint32_t>(cloud.points.size());
@@ -148,7 +161,8 @@ Result<CloudProof> prove(const PointCloud& cloud, std::span<const std::byte> fil
         bounds[2] = first.z;
     }
     int confidence_bits = 0;
-    if (!unpack(file, read.value(), confidence_bits, Comparison(cloud, proof)) || confidence_bits != kConfidenceBits)
+    if (!unpack(file, read.value(), confidence_bits, Comparison(cloud, leaf, proof)) ||
+        confidence_bits != kConfidenceBits)
         return failure(Fault::kSoftware, "the encoded cloud decodes to another one: report this");
     return proof;
 }
@@ -160,18 +174,22 @@ std::size_t encode_heap_bytes(std::size_t points)
     return std::max(kTableBytesFixed + points * kTableBytesPerPoint, kRowsBytesFixed + points * kRowsBytesPerPoint);
 }
 
-Result<EncodedCloud> encode_cloud(const PointCloud& cloud, const CloudMeta& meta, std::span<std::byte> heap)
+Result<EncodedCloud> encode_cloud(const PointCloud& cloud, const CloudMeta& meta, std::span<std::byte> heap,
+                                  std::span<const std::uint16_t> leaf)
 {
     TRY(check(cloud));
+    if (!leaf.empty() && leaf.size() != cloud.points.size())
+        return failure(Fault::kSoftware, "%zu leaves of %zu points: report this", leaf.size(), cloud.points.size());
     draco::EncoderBuffer file; // its bytes lie in the lent heap, and are moved to its start when nothing else does
     EncodedCloud encoded;
     {
         LentHeap lent{heap};
         try {
-            file.buffer()->reserve(kFileBytesFixed + cloud.points.size() * kFileBytesPerPoint);
-            if (!pack(cloud, meta, file))
+            file.buffer()->reserve(kFileBytesFixed + cloud.points.size() * kFileBytesPerPoint +
+                                   leaf.size() * kLeafHeapBytes);
+            if (!pack(cloud, meta, leaf, file))
                 return failure(Fault::kSoftware, "the compressor refuses the cloud: report this");
-            encoded.proof = TRY(prove(cloud, std::as_bytes(std::span{file.data(), file.size()})));
+            encoded.proof = TRY(prove(cloud, leaf, std::as_bytes(std::span{file.data(), file.size()})));
         } catch (const std::bad_alloc&) {
             return failure(Fault::kConfig,
                            "%zu points do not fit the compressor's %zu KiB of memory: use smaller pictures, or "

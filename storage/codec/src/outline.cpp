@@ -57,10 +57,11 @@ private:
 
 constexpr std::string_view kMagic = "DRACO";
 constexpr std::uint32_t kHasMetadata = 0x8000;
-// Attribute type, data type, components, normalised, id: POSITION float32, COLOR uint8, GENERIC float32.
-constexpr std::uint8_t kAttributes[3][5] = {{0, 9, 3, 0, 0}, {2, 2, 3, 1, 1}, {4, 9, 1, 0, 2}};
-// How each attribute is packed: quantised, integer, quantised.
-constexpr std::uint8_t kPackings[3] = {2, 1, 2};
+// Attribute type, data type, components, normalised, id: POSITION float32, COLOR uint8, GENERIC float32; of some
+// GENERIC uint16.
+constexpr std::uint8_t kAttributes[4][5] = {{0, 9, 3, 0, 0}, {2, 2, 3, 1, 1}, {4, 9, 1, 0, 2}, {4, 4, 1, 0, 3}};
+// How each attribute is packed: quantised, integer, quantised, integer.
+constexpr std::uint8_t kPackings[4] = {2, 1, 2, 1};
 constexpr std::uint32_t kMostEntries = 64;
 
 Status damaged(const char* name, const char* what)
@@ -86,12 +87,19 @@ Status read_header(Bytes& bytes, const char* name)
     return {};
 }
 
-/// The one attribute that has metadata: confidence, by its name.
-Status read_attribute_names(Bytes& bytes, const char* name)
+bool is_named(Bytes& bytes, std::uint8_t id, std::string_view as)
 {
-    const bool ours = bytes.varint() == 1 && bytes.varint() == kAttributes[2][4] && bytes.varint() == 1 &&
-                      bytes.text(bytes.u8()) == "name" && bytes.text(bytes.varint()) == "confidence" &&
-                      bytes.varint() == 0;
+    return bytes.varint() == id && bytes.varint() == 1 && bytes.text(bytes.u8()) == "name" &&
+           bytes.text(bytes.varint()) == as && bytes.varint() == 0;
+}
+
+/// The attributes that have metadata, their names: confidence, and of some files leaf.
+Status read_attribute_names(Bytes& bytes, const char* name, CloudOutline& outline)
+{
+    const std::uint32_t named = bytes.varint();
+    outline.has_leaves = named == 2;
+    const bool ours = (named == 1 || named == 2) && is_named(bytes, kAttributes[2][4], "confidence") &&
+                      (named == 1 || is_named(bytes, kAttributes[3][4], "leaf"));
     return ours ? Status{} : damaged(name, "no attribute is named confidence");
 }
 
@@ -116,15 +124,15 @@ Status read_entries(Bytes& bytes, const char* name, CloudOutline& outline)
     return {};
 }
 
-bool read_attributes(Bytes& bytes)
+bool read_attributes(Bytes& bytes, std::size_t count)
 {
-    if (bytes.u8() != 1 || bytes.varint() != 3)
+    if (bytes.u8() != 1 || bytes.varint() != count)
         return false;
-    for (const auto& attribute : kAttributes)
+    for (const auto& attribute : std::span(kAttributes).first(count))
         for (const std::uint8_t field : attribute)
             if (bytes.u8() != field)
                 return false;
-    for (const std::uint8_t packing : kPackings)
+    for (const std::uint8_t packing : std::span(kPackings).first(count))
         if (bytes.u8() != packing)
             return false;
     return !bytes.broken();
@@ -142,12 +150,12 @@ Result<CloudOutline> outline_of(std::span<const std::byte> file, const char* nam
     Bytes bytes{file};
     CloudOutline outline;
     TRY(read_header(bytes, name));
-    TRY(read_attribute_names(bytes, name));
+    TRY(read_attribute_names(bytes, name, outline));
     TRY(read_entries(bytes, name, outline));
     outline.points = bytes.little_endian(4);
     if (outline.points < 1 || outline.points > kMaxCloudPoints)
         return damaged(name, "a senseless number of points");
-    if (!read_attributes(bytes))
+    if (!read_attributes(bytes, outline.has_leaves ? 4 : 3))
         return damaged(name, "its attributes are not position, colour and confidence");
     outline.points_at = file.size() - bytes.left();
     return outline;

@@ -22,8 +22,9 @@ inline bool read_quantisation(draco::DecoderBuffer& in, Part part, Quantisation&
     return in.Decode(&read.range) && in.Decode(&read.bits);
 }
 
-/// Calls take(part, values) for positions, colours and confidences, all of which it must accept by `true`. Values are
-/// those of the file, in no checked range. False: the file is damaged, or not on the grid of its outline.
+/// Calls take(part, values) for positions, colours, confidences and, if the outline has them, leaves, all of which it
+/// must accept by `true`. Values are those of the file, in no checked range. False: the file is damaged, or not on the
+/// grid of its outline.
 template <typename Take>
 bool unpack(std::span<const std::byte> file, const CloudOutline& outline, int& confidence_bits, const Take& take)
 {
@@ -31,7 +32,7 @@ bool unpack(std::span<const std::byte> file, const CloudOutline& outline, int& c
     draco::DecoderBuffer in;
     in.Init(reinterpret_cast<const char*>(packed.data()), packed.size(), draco::kDracoPointCloudBitstreamVersion);
     std::vector<std::int32_t> values(outline.points * kMostComponents);
-    for (const Part part : kParts) {
+    for (const Part part : parts_of(outline.has_leaves)) {
         const auto those = std::span(values).first(outline.points * components_of(part));
         if (!read_values(in, those, components_of(part)) || !take(part, std::span<const std::int32_t>(those)))
             return false;

@@ -1,10 +1,11 @@
-// How the three attributes of a cloud lie in a file: whole numbers, and what turns them into lengths again.
+// How the attributes of a cloud lie in a file: whole numbers, and what turns them into lengths again.
 #pragma once
 
 #include "dicot/base/cloud.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace dicot {
 
@@ -13,14 +14,21 @@ enum class Part
 {
     kPosition,
     kColour,
-    kConfidence
+    kConfidence,
+    kLeaf
 };
-inline constexpr Part kParts[] = {Part::kPosition, Part::kColour, Part::kConfidence};
+inline constexpr Part kParts[] = {Part::kPosition, Part::kColour, Part::kConfidence, Part::kLeaf};
+
+constexpr std::span<const Part> parts_of(bool leaves)
+{
+    return std::span(kParts).first(leaves ? 4 : 3);
+}
+
 inline constexpr std::size_t kMostComponents = 3;
 
 constexpr std::size_t components_of(Part part)
 {
-    return part == Part::kConfidence ? 1 : 3;
+    return part == Part::kPosition || part == Part::kColour ? 3 : 1;
 }
 
 /// value = least + index * range / (2^bits - 1)

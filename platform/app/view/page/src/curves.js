@@ -1,5 +1,5 @@
 // A trait of each plant over time: samples with their uncertainty, outliers hollow, a smooth curve with its band, gaps below.
-import { clockOf, counted, dayOf, measured, timeOf } from "./format.js";
+import { clockOf, counted, dayOf, element, measured, timeOf } from "./format.js";
 import { leafColour } from "./colours.js";
 
 const kHeight = 150;
@@ -59,6 +59,7 @@ export function drawCurves(into, curves, key, now, chosen) {
     const first = Math.min(...times), last = Math.max(...times);
     const least = Math.min(0, ...values), most = Math.max(...values) * 1.08 || 1;
     const x = (time) => kLeft + (last > first ? (time - first) / (last - first) : 0.5) * (width - kLeft - kRight);
+    const inside = (at) => Math.min(Math.max(at, kTop), kHeight - kBottom); // a band may be wider than what is drawn
     const y = (value) => kHeight - kBottom - (value - least) / (most - least) * (kHeight - kTop - kBottom);
     const svg = shape("svg", { viewBox: `0 0 ${width} ${kHeight}`, role: "img", "aria-label": `${trait.name} over time` });
 
@@ -74,19 +75,32 @@ export function drawCurves(into, curves, key, now, chosen) {
     for (const { from_s: from, to_s: to, slots, reason } of curves.gaps)
         svg.append(shape("rect", { class: "gap", x: x(from) - 1, width: x(to) - x(from) + 2, y: kHeight - kBottom + 3, height: 4 },
             `${timeOf(from)} to ${timeOf(to)}, ${counted(slots, "slot")}: ${reason}`));
-    curves.plants.forEach((plant, i) => plant.series[key] && drawPlant(svg, plant, plant.series[key], colourOf(i), x, y, trait, chosen));
+    curves.plants.forEach((plant, i) => plant.series[key] && drawPlant(svg, plant, plant.series[key], colourOf(i), x, y, inside, trait, chosen));
     if (now !== null && now >= first && now <= last)
         svg.append(shape("line", { class: "now", x1: x(now), x2: x(now), y1: kTop, y2: kHeight - kBottom }));
-    into.replaceChildren(svg);
+    into.replaceChildren(svg, ...series.length > 1 ? [names(curves.plants, key)] : []);
 }
 
-function drawPlant(svg, plant, series, colour, x, y, trait, chosen) {
+/// Which colour is whose.
+function names(plants, key) {
+    const all = element("p", "note");
+    plants.forEach((plant, i) => {
+        if (!plant.series[key])
+            return;
+        const swatch = element("i", "swatch");
+        swatch.style.background = colourOf(i);
+        all.append(swatch, `${plant.name} `);
+    });
+    return all;
+}
+
+function drawPlant(svg, plant, series, colour, x, y, inside, trait, chosen) {
     const { curve } = series;
     if (curve) {
         // Where the curve does not go over a gap its values are null: a piece a stretch.
         for (const piece of pieces(curve)) {
-            const above = piece.map((i) => `${x(curve.time_s[i])},${y(curve.value[i] + 2 * curve.sd[i])}`);
-            const below = piece.map((i) => `${x(curve.time_s[i])},${y(curve.value[i] - 2 * curve.sd[i])}`);
+            const above = piece.map((i) => `${x(curve.time_s[i])},${inside(y(curve.value[i] + 2 * curve.sd[i]))}`);
+            const below = piece.map((i) => `${x(curve.time_s[i])},${inside(y(curve.value[i] - 2 * curve.sd[i]))}`);
             svg.append(shape("polygon", { points: [...above, ...below.reverse()].join(" "), fill: colour, opacity: 0.18 }));
             svg.append(shape("polyline", {
                 points: piece.map((i) => `${x(curve.time_s[i])},${y(curve.value[i])}`).join(" "), fill: "none", stroke: colour, "stroke-width": 1.6,

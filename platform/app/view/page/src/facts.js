@@ -15,6 +15,9 @@ const kPlantRows = [
 const kLeafColumns = [
     ["length", "length_mm", 1], ["width", "width_mm", 1], ["area", "area_mm2", 0.01], ["incl.", "inclination_deg", 1],
 ];
+// What depends on which way is up.
+const kUpright = new Set(["height_p99_mm", "height_top10_mean_mm", "projected_area_mm2", "inclination_mean_deg", "inclination_deg"]);
+
 const kLeafUnits = ["", "mm", "mm", "cm²", "°"];
 
 function table(rows, style) {
@@ -29,23 +32,24 @@ function table(rows, style) {
 
 /// `plants`: plants.json; `choose(leaf)`: a person wants to see this leaf.
 export function showPlants(into, plants, chosenLeaf, choose) {
+    const known = (key) => plants.ground.kind !== "none" || !kUpright.has(key);
     const parts = plants.plants.map((plant) => {
         const part = element("details", "plant", element("summary", "", plant.name, plant.cut ? element("em", "", "leaves the frame") : ""));
         part.open = plants.plants.length < 4;
-        part.append(table(kPlantRows.map(([name, key, unit, scale]) => [name, `${measured(plant[key], scale)} ${unit}`])));
+        part.append(table(kPlantRows.filter(([, key]) => known(key)).map(([name, key, unit, scale]) => [name, `${measured(plant[key], scale)} ${unit}`])));
         const leaves = plants.leaves.filter((leaf) => leaf.plant === plant.plant);
         if (leaves.length > 0)
-            part.append(leafTable(leaves, chosenLeaf, choose));
+            part.append(leafTable(leaves, kLeafColumns.filter(([, key]) => known(key)), chosenLeaf, choose));
         return part;
     });
-    const ground = { soil: "heights above the soil", bench: "heights above the bench", none: "no ground was found: heights are not known" };
-    const words = plants.plants.length === 0 ? "No plant was found." : `${ground[plants.ground.kind]}; ± is one standard deviation`;
+    const ground = { soil: "heights above the soil", bench: "heights above the bench", none: "no ground was found: heights and inclinations are not known" };
+    const words = !plants.grid ? "There are too few points to find plants in." : plants.plants.length === 0 ? "No plant was found." : `${ground[plants.ground.kind]}; ± is one standard deviation`;
     into.replaceChildren(element("h2", "", "Plants"), element("p", "note", words), ...parts);
 }
 
-function leafTable(leaves, chosenLeaf, choose) {
+function leafTable(leaves, columns, chosenLeaf, choose) {
     const head = element("tr");
-    head.append(...["leaf", ...kLeafColumns.map(([name]) => name)].map((name, i) => element("th", "", name, element("small", "", ` ${kLeafUnits[i]}`))));
+    head.append(...["leaf", ...columns.map(([name]) => name)].map((name, i) => element("th", "", name, element("small", "", ` ${kLeafUnits[i]}`))));
     const made = element("table", "leaves", head);
     for (const leaf of leaves) {
         const row = element("tr", leaf.leaf === chosenLeaf ? "chosen" : "");
@@ -57,7 +61,7 @@ function leafTable(leaves, chosenLeaf, choose) {
         button.setAttribute("aria-label", `Leaf ${leaf.leaf}${flags ? `, ${flags}` : ""}`);
         button.setAttribute("aria-pressed", String(leaf.leaf === chosenLeaf));
         button.addEventListener("click", () => choose(leaf.leaf === chosenLeaf ? 0 : leaf.leaf));
-        row.append(element("th", "", button), ...kLeafColumns.map(([, key, scale]) => {
+        row.append(element("th", "", button), ...columns.map(([, key, scale]) => {
             const cell = element("td", "", leaf[key].value === null ? "–" : (leaf[key].value * scale).toFixed(1));
             cell.title = measured(leaf[key], scale);
             return cell;

@@ -179,6 +179,11 @@ function addPlants(facts, bytes) {
     const leaf = new Uint16Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + 2 * cloud.count));
     state.plants = { facts, leaf, plant: bytes.subarray(2 * cloud.count) };
     state.seen.plants = state.plants;
+    if (!facts.grid) { // too few points: it stands where the one before stood
+        paint();
+        showTraits();
+        return;
+    }
     const known = facts.ground.kind !== "none";
     if (known)
         Object.assign(state.seen, heightsOf(cloud, facts.ground, state.plants.plant));

@@ -102,7 +102,7 @@ export class Timeline {
             item.append(element("p", "none", state, element("small", "", here ? reason : "")));
         }
         const newDay = index === 0 || dayOf(this.slot(index - 1).time) !== dayOf(time);
-        item.append(element("span", "when", newDay ? element("b", "", dayOf(time).slice(5)) : "", ` ${clockOf(time)}`));
+        item.append(element("span", "when", newDay ? element("b", "", dayOf(time).slice(5)) : "", time === null ? "no date" : ` ${clockOf(time)}`));
         item.addEventListener("click", () => this.chosen(index));
         return item;
     }

@@ -18,6 +18,7 @@ struct CloudOutline
 {
     std::size_t points = 0;
     std::size_t points_at = 0; ///< where they begin in the file, in bytes
+    bool has_leaves = false;   ///< the number of a leaf for each point, which decode_cloud() passes over
     CloudGrid grid;
     CloudMeta meta;
 };

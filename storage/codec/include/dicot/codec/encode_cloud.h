@@ -33,11 +33,15 @@ struct EncodedCloud
 /// The heap that encode_cloud() needs for a cloud of `points` points on a grid of 20 bits at most, whatever they are.
 std::size_t encode_heap_bytes(std::size_t points);
 
+inline constexpr std::size_t kLeafHeapBytes = 4;
+
 /// Encodes as storage/FORMAT.md says: points in their order, positions exactly on the grid, colours and confidences as
 /// as_stored() rounds them (stored_point.h). Then decodes the result and compares every point with what was to be
 /// stored: a difference is Fault::kSoftware.
 /// Refused: no points, more than kMaxCloudPoints, a point outside the grid; a heap that is too small (Fault::kConfig).
-/// `heap` is lent to the compressor for the call; the result lies in it afterwards.
-Result<EncodedCloud> encode_cloud(const PointCloud& cloud, const CloudMeta& meta, std::span<std::byte> heap);
+/// `heap` is lent to the compressor for the call; the result lies in it afterwards. `leaf`: empty, or the number of a
+/// leaf for each point, 0 for none: another attribute, which takes kLeafHeapBytes of heap a point more.
+Result<EncodedCloud> encode_cloud(const PointCloud& cloud, const CloudMeta& meta, std::span<std::byte> heap,
+                                  std::span<const std::uint16_t> leaf = {});
 
 } // namespace dicot
