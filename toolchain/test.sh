@@ -212,9 +212,10 @@ finished() { # machine
     return "$(cat "$logs/vm-$1.code")"
 }
 
-purposes="build viewer quickstart test browser"
+purposes="build quickstart test"
 for name in $stages; do
     case $name in
+        release) purposes="$purposes viewer browser" ;;
         lint) purposes="$purposes clang lint" ;;
         asan | clang | fuzz) purposes="$purposes clang" ;;
         cross | vm) purposes="$purposes $name" ;;

@@ -19,8 +19,10 @@ namespace dicot::test {
 class ArchiveFolder
 {
 public:
-    ArchiveFolder(const std::string& root, const std::string& device, std::string zone = "UTC")
-        : board_(std::filesystem::path(root) / device), zone_(std::move(zone))
+    /// `clock`: how far its clock is believed: "synchronised", "set", "not set".
+    ArchiveFolder(const std::string& root, const std::string& device, std::string zone = "UTC",
+                  std::string clock = "synchronised")
+        : board_(std::filesystem::path(root) / device), zone_(std::move(zone)), clock_(std::move(clock))
     {
         std::filesystem::create_directories(board_);
         std::ofstream(board_ / "ARCHIVE");
@@ -56,9 +58,8 @@ private:
     {
         std::ofstream(folder / "record.json")
             << R"({"format": "dicot record 1", "sequence": )" << sequence << R"(, "time": ")" << when
-            << R"(", "due": ")" << when
-            << R"(", "clock": {"trust": "synchronised"}, "parameters": {"schedule": {"timezone": ")" << zone_
-            << R"("}}, )" << outcome << "}";
+            << R"(", "due": ")" << when << R"(", "clock": {"trust": ")" << clock_
+            << R"("}, "parameters": {"schedule": {"timezone": ")" << zone_ << R"("}}, )" << outcome << "}";
         std::set<std::filesystem::path> files;
         for (const auto& entry : std::filesystem::directory_iterator(folder))
             files.insert(entry.path());
@@ -73,7 +74,7 @@ private:
     }
 
     std::filesystem::path board_;
-    std::string zone_;
+    std::string zone_, clock_;
 };
 
 } // namespace dicot::test

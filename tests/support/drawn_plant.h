@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <fstream>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -62,9 +63,8 @@ inline std::vector<CloudPoint> drawn_points(const DrawnPlant& plant)
     return points;
 }
 
-inline void write_plant(const std::string& path, const DrawnPlant& plant)
+inline void write_points(const std::string& path, const std::vector<CloudPoint>& points)
 {
-    const std::vector<CloudPoint> points = drawn_points(plant);
     const CloudGrid grid{.step_um = 100, .bits = 14, .origin = {-8192, -8192, 0}};
     std::vector<std::byte> heap(encode_heap_bytes(points.size()));
     const Result<EncodedCloud> packed = encode_cloud({points, grid}, CloudMeta{}, heap);
@@ -73,6 +73,37 @@ inline void write_plant(const std::string& path, const DrawnPlant& plant)
     const auto bytes = packed.value().bytes;
     std::ofstream(path, std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+inline void write_plant(const std::string& path, const DrawnPlant& plant)
+{
+    write_points(path, drawn_points(plant));
+}
+
+/// The same leaves before a thicket: a ray that meets the soil ends anywhere up to twice as far.
+inline void write_plant_in_thicket(const std::string& path, const DrawnPlant& plant)
+{
+    std::vector<CloudPoint> points = drawn_points(plant);
+    std::mt19937 random(7);
+    for (CloudPoint& point : points)
+        if (point.colour.r > point.colour.g) {
+            const double farther = 1 + static_cast<double>(random() % 1000) / 1000;
+            for (std::int32_t* axis : {&point.x, &point.y, &point.z})
+                *axis = static_cast<std::int32_t>(std::lround(*axis * farther));
+            point = as_stored(point);
+        }
+    write_points(path, points);
+}
+
+/// What is left of it in a night: a point here and there.
+inline void write_specks(const std::string& path, const DrawnPlant& plant)
+{
+    constexpr std::size_t kApart = 1931;
+    const std::vector<CloudPoint> all = drawn_points(plant);
+    std::vector<CloudPoint> specks;
+    for (std::size_t i = 0; i < all.size(); i += kApart)
+        specks.push_back(all[i]);
+    write_points(path, specks);
 }
 
 } // namespace dicot::test

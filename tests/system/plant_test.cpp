@@ -191,6 +191,33 @@ TEST_F(Plant, is_refused_with_the_reason)
     EXPECT_EQ(plant(cloud_ + " --csv " + folder_.path("no/folder/t.csv")).exit_code, 73);
 }
 
+TEST_F(Plant, seen_straight_from_above_is_as_high_and_as_large)
+{
+    for (const double down : {0.9848, 1.0}) { // 80 and 90 degrees
+        test::write_plant(cloud_, {.leaves = 4, .radius_mm = kRadius_mm, .down = down});
+        const json report = this->report(cloud_);
+        EXPECT_EQ(report["metadata"]["ground"]["value"], "bench") << down;
+        const json& plant = report["observations"]["plant_1"];
+        EXPECT_NEAR(plant["height_p99_mm"]["value"].get<double>(), 60, 1) << down;
+        EXPECT_NEAR(plant["leaf_area_visible_mm2"]["value"].get<double>(), 4 * kArea_mm2, 0.1 * 4 * kArea_mm2) << down;
+        EXPECT_NEAR(plant["inclination_mean_deg"]["value"].get<double>(), 0, 2) << down;
+        EXPECT_EQ(plant["leaf_count"]["value"], 4) << down;
+    }
+}
+
+TEST_F(Plant, of_too_few_points_is_none)
+{
+    test::write_specks(cloud_, {.leaves = 4});
+    const ToolRun run = plant(cloud_ + " -o " + folder_.path("leaves.ply"));
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    EXPECT_THAT(run.output, AllOf(HasSubstr("0 plants"), HasSubstr("too few points")));
+    const std::string places =
+        written("p.csv", "name,min_x_mm,min_y_mm,min_z_mm,max_x_mm,max_y_mm,max_z_mm\naloe,,,,,,\n");
+    const json boxed = report(cloud_ + " --plants " + places);
+    EXPECT_EQ(boxed["observations"]["plant_1"]["leaf_count"]["value"], 0);
+    EXPECT_TRUE(boxed["observations"]["plant_1"]["height_p99_mm"]["value"].is_null());
+}
+
 TEST_F(Plant, without_anything_green_is_no_fault)
 {
     test::write_plant(cloud_, {.leaves = 0});

@@ -25,6 +25,7 @@ using nlohmann::json;
 using test::ToolRun;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 std::string text_of(const fs::path& path)
 {
@@ -187,10 +188,64 @@ TEST_F(Traits, WhatIsNoCloudAndMatchesItsDigestIsNamedToo)
     EXPECT_THAT(run.output, AllOf(HasSubstr(folder.filename().string()), HasSubstr("plant 1: 6 snapshots")));
 }
 
+TEST_F(Traits, ANightOfAFewPointsIsAGapAndNoDamage)
+{
+    test::write_specks(folder_.path("night.drc"), {});
+    archive_.done(8, noon(7), folder_.path("night.drc"));
+    for (const char* known : {"not yet", "already"}) {
+        const ToolRun run = traits("--csv " + folder_.path("out.csv"));
+        EXPECT_EQ(run.exit_code, 0) << run.output;
+        EXPECT_THAT(run.output, AllOf(HasSubstr("plant 1: 6 snapshots"), HasSubstr("1 slot, too few points"),
+                                      Not(HasSubstr("dicot: "))))
+            << known;
+        const auto rows = rows_of(text_of(folder_.path("out.csv")));
+        ASSERT_EQ(rows.size(), 9U);
+        EXPECT_EQ(rows[8][5], "done");
+        EXPECT_EQ(rows[8][6], "too few points");
+    }
+}
+
+TEST_F(Traits, WhatHasNoDateIsGivenNone)
+{
+    test::ArchiveFolder archive(folder_.path("dateless"), "bench", "UTC", "not set");
+    archive.done(1, "1970-01-01T00:02:00Z", folder_.path("day1.drc"));
+    archive.missed(2, "1970-01-01T00:05:00Z", "the left camera is gone");
+    const std::string command =
+        std::string{DICOT_PROGRAM} + " traits " + folder_.path("dateless") + " --cache " + folder_.path("cache") + " ";
+    const ToolRun run = test::run(command);
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_THAT(run.output, AllOf(HasSubstr("plant 1: 1 snapshot, no date"), HasSubstr("gap without a date: 1 slot"),
+                                  Not(HasSubstr("1970"))));
+    const json gap = json::parse(test::run(command + "--json").output).at("boards").at(0).at("gaps").at(0);
+    EXPECT_TRUE(gap.at("from").is_null() && gap.at("to").is_null()) << gap;
+    EXPECT_EQ(gap.at("slots"), 1);
+    EXPECT_EQ(test::run(command + "--plot " + folder_.path("plots")).exit_code, 0);
+}
+
+TEST_F(Traits, ATextThatASpreadsheetWouldRunIsGuardedAndANumberIsNot)
+{
+    test::ArchiveFolder archive(folder_.path("odd"), "bench");
+    archive.done(1, noon(1), folder_.path("day1.drc"));
+    archive.missed(2, noon(2), "@SUM(A1), and -2");
+    std::ofstream(folder_.path("places.csv"))
+        << "name,min_x_mm,min_y_mm,min_z_mm,max_x_mm,max_y_mm,max_z_mm\n-basil,,,,,,\n";
+    ASSERT_EQ(test::run(std::string{DICOT_PROGRAM} + " traits " + folder_.path("odd") + " --cache " +
+                        folder_.path("cache") + " --plants " + folder_.path("places.csv") + " --csv " +
+                        folder_.path("out.csv"))
+                  .exit_code,
+              0);
+    const std::string csv = text_of(folder_.path("out.csv"));
+    EXPECT_THAT(csv, AllOf(HasSubstr(",'-basil,"), HasSubstr(",\"'@SUM(A1), and -2\",")));
+    const auto leaves = rows_of(text_of(folder_.path("out.leaves.csv")));
+    EXPECT_THAT(leaves.at(1), testing::Contains("'-basil"));
+    const auto x = static_cast<std::size_t>(std::ranges::find(leaves[0], "centre_x_mm") - leaves[0].begin());
+    EXPECT_TRUE(std::ranges::any_of(leaves, [x](const auto& leaf) { return leaf[x].starts_with('-'); })) << csv;
+}
+
 TEST_F(Traits, ASnapshotWithoutAGroundHasNoHeights)
 {
-    const std::string cloud = folder_.path("plumb.drc");
-    test::write_plant(cloud, {.radius_mm = 17, .down = 1}); // plumb from above, where no ground is looked for
+    const std::string cloud = folder_.path("thicket.drc");
+    test::write_plant_in_thicket(cloud, {.radius_mm = 17});
     archive_.done(8, noon(7), cloud);
     const auto rows = rows_of(traits("--csv").output);
     ASSERT_EQ(rows.size(), 9U);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -63,6 +64,13 @@ public:
     Scene() : mm_(kPixels, 1e9), colour_(kPixels), name_(kPixels, 0)
     {
         paint(0, box(0, 0, kWidth, kHeight), level(0), kBrown);
+    }
+
+    /// Nothing is there, nor is the bench.
+    Scene& clear()
+    {
+        std::ranges::fill(mm_, 1e9);
+        return *this;
     }
 
     /// What is nearer hides what is farther.
@@ -173,6 +181,45 @@ TEST(Ground, IsTheBenchSeenFromAboveItsPlane)
     EXPECT_LT(ground.rms_mm, 1);
 }
 
+/// A plane at 600 mm that recedes by `lean` mm a mm downwards in the picture; discs 80 mm before it, at these places.
+Scene facing(double lean, const std::vector<std::pair<double, double>>& discs)
+{
+    Scene scene;
+    scene.clear().paint(0, box(0, 0, kWidth, kHeight), plane(600, 0, lean * 600 / kFocalPx), kBrown);
+    for (std::size_t i = 0; i < discs.size(); ++i)
+        scene.paint(static_cast<int>(i) + 1, ellipse(discs[i].first, discs[i].second, 60, 60), plane(520, 0, 0));
+    return scene;
+}
+
+TEST(Ground, IsWhatACameraLooksStraightDownAt)
+{
+    for (const double lean : {-0.3, 0.0, 0.3}) { // 17 degrees to either side
+        Scene scene = facing(lean, {{200, 160}, {420, 300}});
+        const GroundFrame ground = scene.look().leaves.ground;
+        ASSERT_EQ(ground.kind, GroundFrame::Kind::kBench) << lean;
+        const double slope = std::sqrt(1 + lean * lean);
+        const double up[3] = {0, lean / slope, -1 / slope}, away[3] = {0, -1 / slope, -lean / slope};
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_NEAR(ground.up[axis], up[axis], 2e-3) << lean;
+            EXPECT_NEAR(ground.away[axis], away[axis], 2e-3) << lean;
+            EXPECT_NEAR(ground.origin_mm[axis], -600 / slope * up[axis], 1.5) << lean;
+        }
+        EXPECT_NEAR(ground.right[0], 1, 2e-3);
+        EXPECT_EQ(scene.leaves.plant_count, 1);
+        EXPECT_GT(scene.overlap(1), 0.9);
+    }
+    // Plants all over the picture cross both edges.
+    Scene dense = facing(0, {{100, 20}, {330, 30}, {200, 240}, {120, 460}, {400, 450}});
+    EXPECT_EQ(dense.look().leaves.ground.kind, GroundFrame::Kind::kBench);
+}
+
+TEST(Ground, IsNoWallThatPlantsStandBefore)
+{
+    Scene scene = facing(0, {{320, 250}});
+    scene.paint(2, box(220, 290, 420, kHeight), plane(510, 0, 0), kBrown); // its pot stands on what is not seen
+    EXPECT_EQ(scene.look().leaves.ground.kind, GroundFrame::Kind::kNone);
+}
+
 TEST(Ground, MovesUpToTheSoilOfAPot)
 {
     Scene scene;
@@ -201,6 +248,32 @@ TEST(Ground, NothingGreenIsNoPlant)
     scene.look();
     EXPECT_EQ(scene.leaves.plant_count, 0);
     EXPECT_EQ(scene.leaves.leaf_count, 0);
+}
+
+TEST(Canopy, AWaxyLeafIsOfItAndAPrintOfTheSameColourIsNot)
+{
+    constexpr Rgb8 kWaxy{134, 165, 128}; // an aloe's, in the shade
+    Scene scene;
+    scene.paint(1, ellipse(250, 160, 70, 45), plane(600, 0.1, 0.2))
+        .paint(2, ellipse(400, 170, 50, 45), plane(610, -0.1, 0.1), kWaxy)
+        .paint(3, box(250, 330, 420, 470), plane(570, 0, 0), kBrown)
+        .paint(4, ellipse(335, 400, 50, 40), plane(569.99, 0, 0), kWaxy);
+    scene.look();
+    EXPECT_GT(scene.overlap(1), 0.97);
+    EXPECT_GT(scene.overlap(2), 0.97);
+    EXPECT_EQ(scene.leaf_of(4), Leaves::kNone);
+    EXPECT_EQ(scene.leaves.leaf_count, 2);
+}
+
+TEST(Canopy, ABluishGreenPotIsNotOfIt)
+{
+    constexpr Rgb8 kPot{45, 68, 64};
+    Scene scene;
+    scene.paint(1, ellipse(320, 160, 70, 45), plane(600, 0.1, 0.2))
+        .paint(2, ellipse(320, 330, 60, 60), plane(560, 0, 0), kPot);
+    scene.look();
+    EXPECT_EQ(scene.leaf_of(2), Leaves::kNone);
+    EXPECT_EQ(scene.leaves.leaf_count, 1);
 }
 
 TEST(Leaves, OneOverTheOtherAreTwo)

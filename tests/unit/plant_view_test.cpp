@@ -124,7 +124,23 @@ TEST(PlantView, RefusesWhatIsNoPicture)
                  {},
                  0};
     EXPECT_EQ(View({points, drawn.cloud.grid}).of.status().fault(), Fault::kBadData);
-    EXPECT_EQ(View({std::span(points).first(1), drawn.cloud.grid}).of.status().fault(), Fault::kBadData);
+}
+
+TEST(PlantView, OfTooFewPointsIsOneEmptyCell)
+{
+    const DrawnCloud drawn(1);
+    for (const std::size_t apart : {drawn.cloud.points.size(), std::size_t{991}}) {
+        std::vector<CloudPoint> specks;
+        for (std::size_t i = 0; i < drawn.cloud.points.size(); i += apart)
+            specks.push_back(drawn.cloud.points[i]);
+        const View view({specks, drawn.cloud.grid});
+        ASSERT_TRUE(view.of.ok()) << view.of.status().message();
+        EXPECT_TRUE(view.of.value().too_few);
+        EXPECT_EQ(view.of.value().point.width, 1);
+        EXPECT_EQ(view.of.value().point.height, 1);
+        EXPECT_EQ(view.of.value().point.at(0, 0), PlantView::kNoPoint);
+    }
+    EXPECT_FALSE(View(drawn.cloud).of.value().too_few);
 }
 
 TEST(PlantView, SaysThatMemoryIsShort)

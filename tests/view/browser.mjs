@@ -11,8 +11,8 @@ export function check(what, holds, seen) {
 }
 
 /// The address of a server that ends with this process.
-export async function serve(program, path) {
-    const server = spawn(program, ["view", path, "--no-open"], { stdio: ["ignore", "pipe", "inherit"] });
+export async function serve(program, path, ...words) {
+    const server = spawn(program, ["view", path, "--no-open", ...words], { stdio: ["ignore", "pipe", "inherit"] });
     process.on("exit", () => server.kill("SIGKILL"));
     const url = await new Promise((resolve, reject) => {
         server.stdout.once("data", (words) => resolve(String(words).split(/\s/)[0]));

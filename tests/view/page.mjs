@@ -1,7 +1,8 @@
 // node page.mjs SCENARIO PROGRAM SCENE: one promise of the page, held in a real browser. Exit code 0 if it holds.
 //
 // SCENE is what view_page_test.cpp makes: `store` with the slots 1 (done), 2 (missed), 3 (done, its cloud damaged), 4 (done);
-// `known.drc`, a grey wall with a red and a blue patch whose distance is 314.36 mm; `exported`, the store as files.
+// `known.drc`, a grey wall with a red and a blue patch whose distance is 314.36 mm; `exported`, the store as files; `beds`, two days of a
+// plant with four leaves, and `beds.csv`, its name.
 import { existsSync } from "node:fs";
 import { check, histogram, middleOf, open, pixels, ready, serve } from "./browser.mjs";
 
@@ -112,6 +113,21 @@ const scenarios = {
         check("no error on the console", noted.errors.every((error) => error.startsWith("Failed to load resource")), noted.errors);
     },
 
+    async plants() {
+        const { url } = await serve(program, `${scene}/beds`, "--plants", `${scene}/beds.csv`);
+        const { page, noted } = await open(url);
+        await ready(page, 2);
+        await page.waitForFunction(() => document.querySelectorAll("#plants summary").length > 0);
+        const names = await page.$$eval("#plants summary", (all) => all.map((one) => one.textContent));
+        check("plants are called as the table says, in its words alone", JSON.stringify(names) === JSON.stringify(["<i>basil</i>", "empty"]), names);
+        const leaves = await page.locator("#plants details").first().locator("table.leaves button").count();
+        check("the leaves stand with their plant", leaves === 4, leaves);
+        await page.waitForFunction(() => document.querySelectorAll("#curves circle").length > 0);
+        const curves = await page.locator("#curves").innerHTML();
+        check("so does the curve", curves.includes("&lt;i&gt;basil&lt;/i&gt;"), curves);
+        check("no error on the console", noted.errors.length === 0, noted.errors);
+    },
+
     async phone() {
         const { page } = await fourthSlot({ viewport: { width: 360, height: 740 }, hasTouch: true, isMobile: true, colorScheme: "dark" });
         await ready(page, 4);
@@ -139,8 +155,15 @@ const scenarios = {
         check("a damaged cloud is told", (await page.locator("#message").textContent()).includes("damaged"), await page.locator("#message").textContent());
         await page.keyboard.press("Home");
         await ready(page, 1);
+        const pictures = await page.$$eval("figure img", (images) => images.map((image) => image.complete && image.naturalWidth));
+        check("both pictures are there", pictures.every((width) => width > 0), pictures);
         check("nothing is asked for on a network", noted.requests.every((request) => /^(file|data):/.test(request)), noted.requests);
         check("no script failed", noted.errors.every((error) => error.startsWith("Failed to load resource")), noted.errors);
+        const ran = await page.evaluate(() => {
+            document.head.append(Object.assign(document.createElement("script"), { textContent: "globalThis.strange = true" }));
+            return globalThis.strange === true;
+        });
+        check("a script that is not its own does not run", !ran && noted.errors.some((error) => /Content Security Policy/.test(error)), noted.errors);
     },
 
     async season() {

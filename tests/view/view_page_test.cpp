@@ -1,4 +1,6 @@
 // The page of dicot view in a real browser: what page.mjs promises, on a store and a cloud that are made here.
+#include "archive_folder.h"
+#include "drawn_plant.h"
 #include "store_commands.h"
 
 #include "dicot/codec/encode_cloud.h"
@@ -62,6 +64,12 @@ protected:
         const fs::path damaged = snapshots(store).at(2) / "cloud.drc";
         fs::resize_file(damaged, fs::file_size(damaged) / 2);
         write_known_cloud(scene() + "/known.drc");
+        test::write_plant(scene() + "/plant.drc", {.leaves = 4});
+        test::ArchiveFolder beds(scene() + "/beds", "bench");
+        for (const int day : {1, 2})
+            beds.done(day, "2026-06-0" + std::to_string(day) + "T12:00:00Z", scene() + "/plant.drc");
+        std::ofstream(scene() + "/beds.csv") << "name,min_x_mm,min_y_mm,min_z_mm,max_x_mm,max_y_mm,max_z_mm\n"
+                                                "<i>basil</i>,,,,,,\nempty,-9000,-9000,,-8000,-8000,\n";
     }
     static void TearDownTestSuite() { test::StoreOfOneBoard::TearDownTestSuite(); }
 
@@ -111,6 +119,11 @@ TEST_F(ViewPage, ADamagedCloudIsToldAndTheNextOneIsShown)
 TEST_F(ViewPage, EverythingIsReachedByKeyboard)
 {
     expect("keyboard");
+}
+
+TEST_F(ViewPage, PlantsBearTheNamesOfTheirPlaces)
+{
+    expect("plants");
 }
 
 TEST_F(ViewPage, FitsAPhone)

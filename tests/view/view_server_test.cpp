@@ -1,4 +1,6 @@
 // dicot view: what its server answers, to whom, and what it leaves in an exported folder.
+#include "archive_folder.h"
+#include "drawn_plant.h"
 #include "store_commands.h"
 
 #include "stop_request.h"
@@ -233,6 +235,42 @@ TEST_F(ViewServer, GrowthIsOfEverySlot)
     EXPECT_THAT(curves["gaps"][0]["reason"].get<std::string>(), HasSubstr("is gone"));
 }
 
+TEST_F(ViewServer, PlantsBearTheNamesOfTheirPlaces)
+{
+    const std::string archive = root_ + "-beds", table = root_ + "-beds.csv";
+    test::write_plant(root_ + ".drc", {.leaves = 4});
+    test::ArchiveFolder(archive, "bench").done(1, "2026-06-01T12:00:00Z", root_ + ".drc");
+    std::ofstream(table) << "name,min_x_mm,min_y_mm,min_z_mm,max_x_mm,max_y_mm,max_z_mm\n"
+                            "\"<i>basil, red\",,,,,,\nempty,-9000,-9000,,-8000,-8000,\n";
+    const Result<app::TraitsWishes> named = app::usual_wishes(table);
+    ASSERT_TRUE(named.ok()) << named.status().message();
+    const auto site = ViewSite::open(archive, named.value());
+    ASSERT_TRUE(site.ok()) << site.status().message();
+    site.value()->wait_for_growth();
+    const json plants = json::parse(*site.value()->answer("data/0/1/plants.json").body).at("plants");
+    const json curves = json::parse(*site.value()->answer("data/0/curves.json").body).at("plants");
+    ASSERT_EQ(plants.size(), 2U);
+    ASSERT_EQ(curves.size(), 2U);
+    for (const json& told : {plants, curves}) {
+        EXPECT_EQ(told[0]["name"], "<i>basil, red");
+        EXPECT_EQ(told[1]["name"], "empty");
+    }
+    EXPECT_NEAR(plants[0]["leaf_count"]["value"].get<double>(), 4, 0.1);
+    EXPECT_EQ(plants[1]["points"], 0);
+    EXPECT_EQ(curves[0]["series"]["leaf_count"]["value"].size(), 1U);
+    EXPECT_TRUE(curves[1]["series"].empty()) << curves[1];
+}
+
+TEST_F(ViewServer, APlantsTableThatIsMissingOrWrongIsRefusedBeforeAnythingIsServed)
+{
+    const std::string view = "view '" + root_ + "' --no-open --plants '" + root_;
+    EXPECT_EQ(dicot(view + "/nowhere.csv'").exit_code, 66);
+    std::ofstream(root_ + "/table.csv") << "name,min_x_mm\nbasil,5\n";
+    const test::ToolRun run = dicot(view + "/table.csv'");
+    EXPECT_EQ(run.exit_code, 65);
+    EXPECT_THAT(run.output, HasSubstr("table.csv: it has no column min_y_mm"));
+}
+
 TEST_F(ViewServer, ABoardsProgramSaysThatItHasNoViewer)
 {
     const test::ToolRun run = test::run(DICOT_BOARD " view '" + root_ + "'");
@@ -246,7 +284,9 @@ TEST_F(ViewServer, AnExportHasAFileForEachAnswer)
     const std::string into = root_ + "-export";
     const test::ToolRun run = dicot("view '" + root_ + "' --export '" + into + "'");
     ASSERT_EQ(run.exit_code, 0) << run.output;
-    EXPECT_THAT(test::text_of(into + "/index.html"), HasSubstr("data-source=\"files\""));
+    EXPECT_THAT(test::text_of(into + "/index.html").substr(0, 400),
+                AllOf(HasSubstr("data-source=\"files\""),
+                      HasSubstr("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'")));
     for (const std::string& path : site_->paths()) {
         const bool picture = path.ends_with(".jpg") || path.ends_with(".png");
         EXPECT_TRUE(fs::exists(into + "/" + path + (picture ? "" : ".js"))) << path;

@@ -30,6 +30,19 @@ function(dicot_fetch_packages from into missing)
   file(WRITE "${into}/fetched" "${wanted}")
 endfunction()
 
+# Sets `missing` to why this Node cannot bundle the page, or "". What older ones say is of words they do not know.
+function(dicot_judge_node node missing)
+  set(oldest 18) # of Debian 12; esbuild and playwright-core ask for it too
+  execute_process(COMMAND "${node}" --version OUTPUT_VARIABLE said ERROR_QUIET)
+  string(REGEX MATCH "^v([0-9]+)\\." version "${said}")
+  set(${missing} "" PARENT_SCOPE)
+  if(NOT version OR CMAKE_MATCH_1 LESS oldest)
+    string(STRIP "${said}" said)
+    set(${missing} "${node} is Node '${said}', and ${oldest} is the oldest that can make the page (Debian 12: nodejs; set DICOT_NODE to \
+another one, or DICOT_VIEWER=OFF)" PARENT_SCOPE)
+  endif()
+endfunction()
+
 # Sets `missing` to what the viewer lacks, "" if nothing.
 function(dicot_prepare_viewer missing)
   pkg_check_modules(httplib QUIET IMPORTED_TARGET GLOBAL cpp-httplib)
@@ -40,7 +53,10 @@ function(dicot_prepare_viewer missing)
   elseif(NOT DICOT_NODE OR NOT DICOT_NPM)
     set(why "no Node with npm (Debian: npm)")
   else()
-    dicot_fetch_packages("${CMAKE_SOURCE_DIR}/platform/app/view/page" "${DICOT_PAGE_FOLDER}" why)
+    dicot_judge_node("${DICOT_NODE}" why)
+    if(NOT why)
+      dicot_fetch_packages("${CMAKE_SOURCE_DIR}/platform/app/view/page" "${DICOT_PAGE_FOLDER}" why)
+    endif()
   endif()
   set(${missing} "${why}" PARENT_SCOPE)
 endfunction()

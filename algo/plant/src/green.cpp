@@ -20,8 +20,15 @@ bool is_green(const Rgb8& colour, int percent)
     return sum > kDark && 100 * (2 * g - r - b) > percent * sum && 100 * (g - r) > 2 * sum;
 }
 
-/// Waxy leaves are hardly green; they are taken for leaves where a part of the patch clearly is.
-constexpr int kHardlyGreen = 10, kClearlyGreen = 18;
+/// Waxy leaves are hardly green; they are taken for leaves where a part of the patch clearly is, or where they are
+/// green enough, not blue as pots are, and end in the air: what is printed on a surface goes on beside the green.
+constexpr int kHardlyGreen = 10, kGreenEnough = 14, kClearlyGreen = 18;
+
+bool is_waxy(const Rgb8& colour)
+{
+    const int r = colour.r, g = colour.g, b = colour.b;
+    return is_green(colour, kGreenEnough) && 100 * (g - b) > 5 * (r + g + b);
+}
 
 /// How high above the ground the canopy begins. On a lawn the ground is green as well.
 double least_height_mm(const PlantView& view, const GroundFrame& ground)
@@ -54,7 +61,8 @@ public:
     Patches(const PlantView& view, std::span<const std::uint8_t> green, Arena& arena)
         : view_(view), green_(green), groups_(arena.take<std::int32_t>(green.size())),
           size_(arena.take<std::int32_t>(green.size())), confidence_(arena.take<std::int32_t>(green.size())),
-          clearly_(arena.take<std::int32_t>(green.size())), links_(arena.take<std::int32_t>(green.size()))
+          clearly_(arena.take<std::int32_t>(green.size())), waxy_(arena.take<std::int32_t>(green.size())),
+          links_(arena.take<std::int32_t>(green.size())), beside_(arena.take<std::int32_t>(green.size()))
     {
     }
 
@@ -65,14 +73,15 @@ public:
                 if (near != PlantView::kNoPoint && hang_together(point(near), point(here), view_.focal_px))
                     groups_.join(near, here);
         });
-        std::ranges::fill(size_, 0);
-        std::ranges::fill(confidence_, 0);
-        std::ranges::fill(clearly_, 0);
-        std::ranges::fill(links_, 0);
-        for_each_green([&](int, int, std::int32_t here) {
+        for (const std::span<std::int32_t> sum : {size_, confidence_, clearly_, waxy_, links_, beside_})
+            std::ranges::fill(sum, 0);
+        for_each_green([&](int x, int y, std::int32_t here) {
             ++at(size_, here);
             at(confidence_, here) += point(here).confidence;
             at(clearly_, here) += is_green(point(here).colour, kClearlyGreen);
+            at(waxy_, here) += is_waxy(point(here).colour);
+            for (const auto& [dx, dy] : kWays)
+                at(beside_, here) += border(x + dx, y + dy, here);
             largest_ = std::max(largest_, at(size_, here));
             is_confident_ = is_confident_ || point(here).confidence > 0;
         });
@@ -83,7 +92,6 @@ public:
     void link()
     {
         constexpr int kReachPx = 24, kDepthShare = 15;
-        constexpr int kWays[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
         for_each_green([&](int x, int y, std::int32_t here) {
             if (is_large(here))
                 return;
@@ -108,8 +116,23 @@ public:
 
 private:
     static constexpr int kSpeck = 60, kGuessed = 60, kSure = 125, kClearShare = 2, kLargeShare = 50;
+    static constexpr int kWays[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
 
-    bool is_leafy(std::int32_t i) { return kClearShare * at(clearly_, i) >= at(size_, i); }
+    bool is_leafy(std::int32_t i)
+    {
+        const std::int32_t least = at(size_, i) / kClearShare;
+        return at(clearly_, i) >= least || (at(waxy_, i) >= least && at(beside_, i) < 0);
+    }
+    /// 1 where the surface goes on there without being green, -1 where it ends, 0 inside the patch.
+    int border(int x, int y, std::int32_t here) const
+    {
+        if (x < 0 || y < 0 || x >= view_.point.width || y >= view_.point.height)
+            return 0;
+        const std::int32_t near = view_.point.at(x, y);
+        if (near == PlantView::kNoPoint || !hang_together(point(near), point(here), view_.focal_px))
+            return -1;
+        return green_[static_cast<std::size_t>(near)] ? 0 : 1;
+    }
     bool was_seen(std::int32_t i) { return !is_confident_ || at(confidence_, i) >= kGuessed * at(size_, i); }
     bool is_large(std::int32_t i) { return was_seen(i) && is_leafy(i) && kLargeShare * at(size_, i) >= largest_; }
     const CloudPoint& point(std::int32_t i) const { return view_.cloud.points[static_cast<std::size_t>(i)]; }
@@ -137,7 +160,8 @@ private:
     const PlantView& view_;
     std::span<const std::uint8_t> green_;
     Groups groups_;
-    std::span<std::int32_t> size_, confidence_, clearly_, links_;
+    std::span<std::int32_t> size_, confidence_, clearly_, waxy_, links_;
+    std::span<std::int32_t> beside_; ///< border along which the surface goes on, less that at which it ends
     std::int32_t largest_ = 0;
     bool is_confident_ = false; ///< the cloud says at all how sure it is
 };

@@ -13,10 +13,12 @@ namespace {
 /// alike in 1 / z everywhere: what is linear here is fitted here.
 using InversePlane = Vec3;
 
-constexpr int kSamples = 3000;   ///< of the points, evenly
-constexpr int kTries = 500;      ///< with half of the points on the plane one in eight hits it
-constexpr double kDown = 0.4226; ///< cos 65 degrees
-constexpr double kNearPx = 6;    ///< how far a point of the plane may be off: as much depth as 6 px are wide
+constexpr int kSamples = 3000;    ///< of the points, evenly
+constexpr int kTries = 500;       ///< with half of the points on the plane one in eight hits it
+constexpr double kDown = 0.4226;  ///< cos 65 degrees: from the camera's down direction
+constexpr double kAhead = 0.8192; ///< cos 35 degrees: from the camera's axis, where cameras look straight down
+constexpr double kNearPx = 6;     ///< how far a point of the plane may be off: as much depth as 6 px are wide
+constexpr double kClearlyPx = 4 * kNearPx;
 constexpr double kLeastShare = 0.1;
 
 /// Depth by which p lies off the plane, in widths of a pixel there; positive where it lies beyond.
@@ -40,10 +42,19 @@ Vec3 solved(const Vec3 (&rows)[3], const Vec3& right)
            (right.x * cross(rows[1], rows[2]) + right.y * cross(rows[2], rows[0]) + right.z * cross(rows[0], rows[1]));
 }
 
+/// Which planes are looked for.
+using Lies = bool (*)(const InversePlane&);
+
 bool lies_below(const InversePlane& plane)
 {
     const double size = length(plane);
     return size > 0 && plane.y >= kDown * size;
+}
+
+bool lies_ahead(const InversePlane& plane)
+{
+    const double size = length(plane);
+    return size > 0 && plane.z >= kAhead * size;
 }
 
 struct Samples
@@ -54,7 +65,6 @@ struct Samples
 
 int score(const Samples& samples, const InversePlane& plane)
 {
-    constexpr double kClearlyPx = 4 * kNearPx;
     int on = 0;
     for (const Vec3& p : samples.points) {
         const double off = beyond_px(plane, p, samples.focal_px);
@@ -67,7 +77,7 @@ int score(const Samples& samples, const InversePlane& plane)
 }
 
 /// Fischler and Bolles 1981, with the same tries on every machine.
-InversePlane best_of_tries(const Samples& samples)
+InversePlane best_of_tries(const Samples& samples, Lies lies)
 {
     std::uint32_t state = 1;
     const auto next = [&state, n = static_cast<std::uint32_t>(samples.points.size())] {
@@ -79,7 +89,7 @@ InversePlane best_of_tries(const Samples& samples)
     for (int i = 0; i < kTries; ++i) {
         const Vec3 rows[3] = {samples.points[next()], samples.points[next()], samples.points[next()]};
         const InversePlane plane = solved(rows, {1, 1, 1});
-        if (!lies_below(plane))
+        if (!lies(plane))
             continue;
         const int on = score(samples, plane);
         if (on > most) {
@@ -91,7 +101,7 @@ InversePlane best_of_tries(const Samples& samples)
 }
 
 /// Least squares in 1 / z over the points near `plane`.
-InversePlane refitted(const Samples& samples, const InversePlane& plane)
+InversePlane refitted(const Samples& samples, const InversePlane& plane, Lies lies)
 {
     Vec3 rows[3] = {};
     Vec3 right;
@@ -105,7 +115,7 @@ InversePlane refitted(const Samples& samples, const InversePlane& plane)
         right = right + (1 / p.z) * direction;
     }
     const InversePlane fitted = solved(rows, right);
-    return lies_below(fitted) ? fitted : plane;
+    return lies(fitted) ? fitted : plane;
 }
 
 /// What a plane leaves over patches of neighbouring samples is not noise of single points.
@@ -140,6 +150,52 @@ Leftover leftover(const Samples& samples, const InversePlane& plane)
     return left;
 }
 
+/// Share of the samples clearly before the plane, in the tenth of the picture's rows that `row` names.
+double before_in_tenth(const Samples& samples, const InversePlane& plane, double top, double bottom, int tenth)
+{
+    int all = 0, before = 0;
+    for (const Vec3& p : samples.points) {
+        const double row = (p.y / p.z - top) / (bottom - top) * 10;
+        if (!(row >= tenth && row <= tenth + 1))
+            continue;
+        ++all;
+        before += beyond_px(plane, p, samples.focal_px) < -kClearlyPx;
+    }
+    return all > 0 ? double(before) / all : 1;
+}
+
+/// A plane ahead is the ground for a camera that looks straight down, and a wall for one that looks level. Before a
+/// wall, everything stands on something at the picture's lower edge and nothing needs to reach the upper one.
+bool is_no_wall(const Samples& samples, const InversePlane& plane)
+{
+    double top = HUGE_VAL, bottom = -HUGE_VAL;
+    for (const Vec3& p : samples.points) {
+        top = std::min(top, p.y / p.z);
+        bottom = std::max(bottom, p.y / p.z);
+    }
+    return before_in_tenth(samples, plane, top, bottom, 9) <=
+           0.1 + 1.5 * before_in_tenth(samples, plane, top, bottom, 0);
+}
+
+struct Found
+{
+    InversePlane plane;
+    Leftover left;
+    bool ok = false;
+};
+
+Found find_plane(const Samples& samples, Lies lies)
+{
+    Found found{best_of_tries(samples, lies), {}, false};
+    if (!lies(found.plane))
+        return found;
+    for (int round = 0; round < 3; ++round)
+        found.plane = refitted(samples, found.plane, lies);
+    found.left = leftover(samples, found.plane);
+    found.ok = double(found.left.count) >= kLeastShare * double(samples.points.size());
+    return found;
+}
+
 void put(const Vec3& from, double (&to)[3])
 {
     to[0] = from.x;
@@ -160,24 +216,25 @@ GroundFrame find_ground(const PlantView& view, Arena& arena)
     for (std::size_t i = 0; i < count; ++i)
         samples.points[i] = point_mm(view, i * view.cloud.points.size() / count);
 
-    InversePlane plane = best_of_tries(samples);
-    if (lies_below(plane)) {
-        for (int round = 0; round < 3; ++round)
-            plane = refitted(samples, plane);
-        const Leftover left = leftover(samples, plane);
-        if (double(left.count) >= kLeastShare * double(count)) {
-            const double size = length(plane);
-            const Vec3 up = (-1 / size) * plane;
-            const Vec3 forward{0, 0, 1};
-            const Vec3 away = unit(forward - dot(forward, up) * up);
-            ground.kind = GroundFrame::Kind::kBench;
-            put((1 / (size * size)) * plane, ground.origin_mm);
-            put(cross(away, up), ground.right);
-            put(away, ground.away);
-            put(up, ground.up);
-            ground.rms_mm = left.rms_mm;
-            ground.height_sd_mm = left.patches_rms_mm;
-        }
+    Found found = find_plane(samples, lies_below);
+    const bool below = found.ok;
+    if (!below) {
+        found = find_plane(samples, lies_ahead);
+        found.ok = found.ok && is_no_wall(samples, found.plane);
+    }
+    if (found.ok) {
+        const double size = length(found.plane);
+        const Vec3 up = (-1 / size) * found.plane;
+        // Where the camera looks, or, seen from straight above, where its picture's upper edge lies.
+        const Vec3 forward = below ? Vec3{0, 0, 1} : Vec3{0, -1, 0};
+        const Vec3 away = unit(forward - dot(forward, up) * up);
+        ground.kind = GroundFrame::Kind::kBench;
+        put((1 / (size * size)) * found.plane, ground.origin_mm);
+        put(cross(away, up), ground.right);
+        put(away, ground.away);
+        put(up, ground.up);
+        ground.rms_mm = found.left.rms_mm;
+        ground.height_sd_mm = found.left.patches_rms_mm;
     }
     arena.rewind(mark);
     return ground;

@@ -118,6 +118,22 @@ int cell(const Lattice& lattice, double at)
     return static_cast<int>(std::floor(lattice.index(at) + 0.5));
 }
 
+Result<PlantView> without_grid(const PointCloud& cloud, Arena& arena)
+{
+    if (cloud.points.size() > PlantView::kFewPoints)
+        return failure(Fault::kBadData, "the cloud's points are not one for each pixel of a picture");
+    const std::span<std::int32_t> cell = arena.take<std::int32_t>(1);
+    if (arena.overrun())
+        return failure(Fault::kConfig, "too little memory to look at a cloud");
+    cell[0] = PlantView::kNoPoint;
+    PlantView view;
+    view.cloud = cloud;
+    view.point = {cell.data(), 1, 1};
+    view.focal_px = 1;
+    view.too_few = true;
+    return view;
+}
+
 } // namespace
 
 Result<PlantView> plant_view(const PointCloud& cloud, Arena& arena)
@@ -139,13 +155,13 @@ Result<PlantView> plant_view(const PointCloud& cloud, Arena& arena)
     const double cells =
         pitch > 0 ? ((columns.most - columns.least) / pitch + 1) * ((rows.most - rows.least) / pitch + 1) : 0;
     if (cells <= 0 || cells > kMostCells)
-        return failure(Fault::kBadData, "the cloud's points are not one for each pixel of a picture");
+        return without_grid(cloud, arena);
 
     Lattice column{pitch, lattice_origin(points, pitch, columns.least, across)};
     Lattice row{pitch, lattice_origin(points, pitch, rows.least, down)};
     constexpr double kMostOff = 0.05;
     if (off_lattice(points, column, across) > kMostOff || off_lattice(points, row, down) > kMostOff)
-        return failure(Fault::kBadData, "the cloud's points are not one for each pixel of a picture");
+        return without_grid(cloud, arena);
     // The least coordinate may round to the cell before the first.
     column.origin += pitch * cell(column, columns.least);
     row.origin += pitch * cell(row, rows.least);

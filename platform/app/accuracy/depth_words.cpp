@@ -1,6 +1,7 @@
 #include "depth_words.h"
 
 #include "../calibrate/report_text.h"
+#include "../traits/csv_cells.h"
 
 #include <nlohmann/json.hpp>
 
@@ -34,16 +35,6 @@ const char* name_of(Trend trend)
 std::string worst_words(const DepthReading& worst)
 {
     return fill("{} mm at {} mm", {fixed(std::abs(worst.face.error_mm), 2), fixed(worst.target.distance_mm, 0)});
-}
-
-std::string cell(const std::string& text)
-{
-    if (text.find_first_of(",\"\r\n") == std::string::npos)
-        return text;
-    std::string quoted = "\"";
-    for (const char c : text)
-        quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return quoted + '"';
 }
 
 } // namespace
@@ -144,7 +135,7 @@ std::string as_csv(const DepthRun& run)
 {
     std::string text = "name,distance_mm,measured_mm,error_mm,bound_mm,spread_mm,point_95_mm,pixels,density\n";
     for (const DepthReading& r : run.readings) {
-        text += cell(r.target.name) + "," + fixed(r.target.distance_mm, 3) + ",";
+        text += csv_cell(r.target.name) + "," + fixed(r.target.distance_mm, 3) + ",";
         if (r.measured())
             text += fill("{},{},{},{},{},{},{}\n",
                          {fixed(r.face.measured_mm, 3), fixed(r.face.error_mm, 3), fixed(r.bound_mm, 3),

@@ -71,7 +71,8 @@ std::string plant_words(const PlantReport& report)
     };
     words += shown(report.cloud) + ": " + counted(static_cast<std::int64_t>(work.traits().plants.size()), "plant") +
              ", ground: " + name_of(ground.kind);
-    words += ground.kind == GroundFrame::Kind::kNone ? "; heights are not to be believed\n" : "\n";
+    words += ground.kind == GroundFrame::Kind::kNone ? "; heights are not to be believed" : "";
+    words += work.view().too_few ? "; too few points to find plants in\n" : "\n";
     for (const PlantTraits& plant : work.traits().plants) {
         words += shown(work.plant_name(plant.plant)) + (plant.cut ? ", leaves the view\n" : "\n");
         for (const PlantColumn& column : plant_columns()) {

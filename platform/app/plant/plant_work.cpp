@@ -30,6 +30,20 @@ std::size_t block_bytes(const PlantView& view)
     return std::max(segment_leaves_bytes(view), stays.peak() + traits_bytes(points, UINT16_MAX, UINT8_MAX));
 }
 
+/// Of a cloud of too few points: all places are empty.
+Result<Leaves> no_leaves(const PlantView& view, std::size_t places, Arena& arena)
+{
+    Leaves leaves;
+    leaves.leaf = arena.take<std::uint16_t>(view.cloud.points.size());
+    leaves.plant = arena.take<std::uint8_t>(view.cloud.points.size());
+    if (arena.overrun())
+        return failure(Fault::kConfig, "too little memory to look for leaves");
+    std::ranges::fill(leaves.leaf, Leaves::kNone);
+    std::ranges::fill(leaves.plant, std::uint8_t{0});
+    leaves.plant_count = static_cast<int>(places);
+    return leaves;
+}
+
 } // namespace
 
 const char* name_of(GroundFrame::Kind kind)
@@ -68,7 +82,8 @@ Result<PlantWork> PlantWork::make(const PointCloud& cloud, const char* name, std
         boxes.push_back(place.box);
         work.names_.push_back(place.name);
     }
-    const Result<Leaves> leaves = segment_leaves(work.view_, boxes, arena);
+    const Result<Leaves> leaves =
+        work.view_.too_few ? no_leaves(work.view_, boxes.size(), arena) : segment_leaves(work.view_, boxes, arena);
     if (!leaves.ok())
         return named(leaves.status());
     work.leaves_ = leaves.value();

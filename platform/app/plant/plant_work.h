@@ -36,7 +36,8 @@ class PlantWork
 public:
     /// With `places`, plant i + 1 is what stands in places[i], and what stands in none is no plant; without, plants
     /// are told apart by the gaps between them. `name` is the cloud's, for sentences. Errors: plant_view()'s;
-    /// Fault::kOsError without memory. A cloud without anything green is no error: it has no plants. `far_mm`: how far
+    /// Fault::kOsError without memory. A cloud without anything green, or of too few points, is no error: it has no
+    /// plants, or their places are empty. `far_mm`: how far
     /// the cloud's working range reaches; 0 where that is not known.
     static Result<PlantWork> make(const PointCloud& cloud, const char* name, std::span<const PlantPlace> places = {},
                                   double far_mm = 0);

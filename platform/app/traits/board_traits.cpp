@@ -70,6 +70,16 @@ Status check_cloud(const std::string& folder, const SlotRow& row)
     return {};
 }
 
+/// A cloud that was read, and shows nothing, is a gap all the same: no curve is to fall to zero in a night.
+void settle(SlotTraits& slot, SnapshotTraits traits)
+{
+    slot.read = true;
+    if (traits.too_few_points)
+        slot.gap = "too few points";
+    else
+        slot.traits = std::move(traits);
+}
+
 Result<SnapshotTraits> measure(const std::string& folder, const SlotRow& row, std::span<const PlantPlace> places)
 {
     TRY(check_cloud(folder, row));
@@ -144,7 +154,7 @@ private:
             if (kept_.ok()) // the first fault stays
                 kept_ = cache_.add(slot.row.sums.view(), measured.value());
             going_ = kept_.ok();
-            slot.traits = std::move(measured.value());
+            settle(slot, std::move(measured.value()));
         } else {
             slot.gap = measured.status().message();
             progress_.wipe();
@@ -192,7 +202,7 @@ Result<BoardTraits> measure_board(const DeviceFolder& board, const TraitsWishes&
         if (!slot.gap.empty())
             continue;
         if (const SnapshotTraits* known = cache.find(slot.row.sums.view())) {
-            slot.traits = *known;
+            settle(slot, *known);
             ++told.from_cache;
         } else {
             left.push_back(&slot);

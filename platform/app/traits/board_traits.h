@@ -20,7 +20,8 @@ struct SlotTraits
 {
     SlotRow row;
     std::optional<SnapshotTraits> traits;
-    std::string gap; ///< one sentence; empty where there are traits
+    bool read = false; ///< its cloud was, now or before
+    std::string gap;   ///< one sentence; empty where there are traits
 };
 
 struct BoardTraits

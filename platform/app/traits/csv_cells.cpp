@@ -18,7 +18,8 @@ std::string csv_cell(double value)
 
 std::string csv_cell(const std::string& text)
 {
-    const std::string plain = shown(text);
+    const std::string words = shown(text);
+    const std::string plain = (words.find_first_of("=+-@") == 0 ? "'" : "") + words;
     if (plain.find_first_of(",\"") == std::string::npos)
         return plain;
     std::string quoted = "\"";

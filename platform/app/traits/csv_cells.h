@@ -9,7 +9,8 @@ namespace dicot::app {
 
 /// Six digits; nothing where it is not known.
 std::string csv_cell(double value);
-/// As shown(), in quotes where it must be.
+/// As shown(), in quotes where it must be, and with a ' before a first = + - or @, which a spreadsheet would run as a
+/// formula (OWASP, CSV Injection): names come from boards and paths.
 std::string csv_cell(const std::string& text);
 
 /// ",NAME,NAME_sd" for each column of plant_columns() or leaf_columns().

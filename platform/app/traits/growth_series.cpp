@@ -79,7 +79,7 @@ private:
         std::string words = most->first;
         if (most->second < slots_)
             words += " (" + std::to_string(slots_ - most->second) + " for other reasons)";
-        gaps_.push_back({from_known_ ? from_us_ : to_us, to_us, slots_, words});
+        gaps_.push_back({from_known_, from_us_, to_us, slots_, words});
         reasons_.clear();
         slots_ = 0;
     }

@@ -50,7 +50,8 @@ struct PlantGrowth
 /// Slots without traits between two that have some, or before the first, or after the last.
 struct SeriesGap
 {
-    std::int64_t from_us = 0, to_us = 0; ///< of the slots around it
+    bool dated = false;                  ///< whether any slot of its board says when it was
+    std::int64_t from_us = 0, to_us = 0; ///< of the slots around it; where dated
     std::int64_t slots = 0;
     std::string reason; ///< the most frequent one, and how many had another
 };

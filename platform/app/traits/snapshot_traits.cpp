@@ -94,6 +94,7 @@ Result<SnapshotTraits> SnapshotTraits::read(const std::string& path, std::span<c
     const CloudOnDisk cloud = TRY(CloudOnDisk::read(path.c_str()));
     const PlantWork work = TRY(PlantWork::make(cloud.cloud(), path.c_str(), places, cloud.meta().far_mm.value_or(0)));
     SnapshotTraits traits;
+    traits.too_few_points = work.view().too_few;
     traits.ground_known = work.leaves().ground.kind != GroundFrame::Kind::kNone;
     std::vector<PlantStand> stands(work.traits().plants.size());
     plant_stands(work.view(), work.leaves(), stands);
@@ -128,13 +129,17 @@ json json_of(const SnapshotTraits& traits)
                           {"centre", leaf.centre_mm},
                           {"base", leaf.base_mm},
                           {"tip", leaf.tip_mm}});
-    return {{"ground", traits.ground_known}, {"plants", plants}, {"leaves", leaves}};
+    return {{"too_few_points", traits.too_few_points},
+            {"ground", traits.ground_known},
+            {"plants", plants},
+            {"leaves", leaves}};
 }
 
 std::optional<SnapshotTraits> traits_of(const json& from)
 {
     try {
         SnapshotTraits traits;
+        traits.too_few_points = from.at("too_few_points").get<bool>();
         traits.ground_known = from.at("ground").get<bool>();
         for (const json& one : from.at("plants"))
             traits.plants.push_back(plant_from(one));

@@ -23,6 +23,7 @@ struct PlantSeen
 
 struct SnapshotTraits
 {
+    bool too_few_points = false; ///< nothing could be measured; see PlantView
     bool ground_known = false;
     std::vector<PlantSeen> plants;
     std::vector<LeafTraits> leaves;

@@ -65,7 +65,7 @@ std::string plant_csv(const BoardTraits& board, const BoardGrowth& growth)
         }
         const std::string reason = slot.traits ? "no plant was found" : slot.gap;
         csv += slot_cells(board, growth, slot) +
-               (slot.traits     ? ",done,"
+               (slot.read       ? ",done,"
                 : slot.row.done ? ",unread,"
                                 : ",missed,") +
                csv_cell(reason) + "," + std::string(1 + 2 * plant_columns().size() + 4, ',') + "\n";

@@ -86,8 +86,8 @@ json growth_json(const BoardTraits& board, const BoardGrowth& growth)
 {
     json gaps = json::array(), plants = json::array();
     for (const SeriesGap& gap : growth.gaps)
-        gaps.push_back({{"from", utc_text(gap.from_us).view()},
-                        {"to", utc_text(gap.to_us).view()},
+        gaps.push_back({{"from", gap.dated ? json(utc_text(gap.from_us).view()) : json{}},
+                        {"to", gap.dated ? json(utc_text(gap.to_us).view()) : json{}},
                         {"slots", gap.slots},
                         {"reason", gap.reason}});
     for (const PlantGrowth& plant : growth.plants) {

@@ -93,7 +93,7 @@ std::string newest_words(const TraitSeries& series)
 
 void draw_gaps(Plot& plot, const BoardGrowth& growth, double from, double to)
 {
-    for (const SeriesGap& gap : growth.gaps) {
+    for (const SeriesGap& gap : growth.gaps) { // all are dated where a sample is
         const double begin = std::max(growth.days.day_of(gap.from_us), from);
         const double end = std::min(growth.days.day_of(gap.to_us), to);
         if (end > begin)

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <span>
 
 namespace dicot::app {
 namespace {
@@ -39,12 +40,22 @@ std::string series_line(const TraitSeries& series)
     return text + "\n";
 }
 
+std::string dates_of(const BoardTraits& board, std::span<const Sighting> seen)
+{
+    std::string first, last;
+    for (const Sighting& at : seen)
+        if (const SlotRow& row = board.slots[at.slot].row; is_dated(row)) {
+            last = utc_text(row.began_us).c_str();
+            if (first.empty())
+                first = last;
+        }
+    return first.empty() ? "no date" : first + " to " + last;
+}
+
 std::string plant_words(const BoardTraits& board, const PlantGrowth& plant)
 {
-    const SlotRow& first = board.slots[plant.life.seen.front().slot].row;
-    const SlotRow& last = board.slots[plant.life.seen.back().slot].row;
     std::string text = shown(plant.life.name) + ": " + counted(std::ssize(plant.life.seen), "snapshot") + ", " +
-                       utc_text(first.began_us).c_str() + " to " + utc_text(last.began_us).c_str() + "\n";
+                       dates_of(board, plant.life.seen) + "\n";
     for (const TraitSeries& series : plant.series)
         text += series_line(series);
     const auto now = std::ranges::count_if(
@@ -62,7 +73,9 @@ std::string gap_words(std::vector<SeriesGap> gaps)
     std::ranges::sort(gaps, {}, &SeriesGap::from_us);
     std::string text;
     for (const SeriesGap& gap : gaps)
-        text += std::string{"  gap between "} + utc_text(gap.from_us).c_str() + " and " + utc_text(gap.to_us).c_str() +
+        text += (gap.dated ? std::string{"  gap between "} + utc_text(gap.from_us).c_str() + " and " +
+                                 utc_text(gap.to_us).c_str()
+                           : "  gap without a date") +
                 ": " + counted(gap.slots, "slot") + ", " + shown(gap.reason) + "\n";
     if (all > gaps.size())
         text += "  and " + counted(static_cast<std::int64_t>(all - gaps.size()), "shorter gap") + ": --csv has all\n";

@@ -18,7 +18,7 @@ json series_json(const BoardTraits& board, const PlantLife& life, const TraitSer
     for (std::size_t i = 0; i < series.samples.size(); ++i) {
         const SlotRow& row = board.slots[life.seen[i].slot].row;
         sequence.push_back(row.sequence);
-        time.push_back(static_cast<double>(row.began_us) / kSecond);
+        time.push_back(is_dated(row) ? json(static_cast<double>(row.began_us) / kSecond) : json{});
         value.push_back(series.samples[i].measured.value); // what is not a number becomes null
         sd.push_back(series.samples[i].measured.sd);
         outlier += series.fit.samples[i].use == SampleFit::Use::kOutlier ? '1' : '0';
@@ -56,10 +56,11 @@ json curves_json(const BoardTraits& board, const BoardGrowth& growth)
         told["plants"].push_back({{"name", plant.life.name}, {"series", series}});
     }
     for (const SeriesGap& gap : growth.gaps)
-        told["gaps"].push_back({{"from_s", static_cast<double>(gap.from_us) / kSecond},
-                                {"to_s", static_cast<double>(gap.to_us) / kSecond},
-                                {"slots", gap.slots},
-                                {"reason", gap.reason}});
+        if (gap.dated)
+            told["gaps"].push_back({{"from_s", static_cast<double>(gap.from_us) / kSecond},
+                                    {"to_s", static_cast<double>(gap.to_us) / kSecond},
+                                    {"slots", gap.slots},
+                                    {"reason", gap.reason}});
     return told;
 }
 

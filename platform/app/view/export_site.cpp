@@ -81,6 +81,9 @@ Status export_site(ViewSite& site, const std::string& folder)
     std::string page{view_page()};
     constexpr std::string_view kServer = "data-source=\"server\"", kFiles = "data-source=\"files\"";
     page.replace(page.find(kServer), kServer.size(), kFiles);
+    constexpr std::string_view kHead = "<meta charset=\"utf-8\">\n"; // a policy holds for what comes behind it
+    page.insert(page.find(kHead) + kHead.size(),
+                "<meta http-equiv=\"Content-Security-Policy\" content=\"" + std::string{files_policy()} + "\">\n");
     return write_file(folder + "/index.html", page);
 }
 

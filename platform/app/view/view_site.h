@@ -22,9 +22,11 @@ struct Answer
     std::shared_ptr<const std::string> body; ///< of what is not 200: a sentence for a person
 };
 
-/// The page, bundled and with all that it needs; and the policy that allows its own parts alone.
+/// The page, bundled and with all that it needs; and the policy (CSP 3) that allows its own parts alone: from the
+/// server as a header, in an export within the page.
 std::string_view view_page();
-std::string_view view_policy();
+std::string_view server_policy();
+std::string_view files_policy();
 
 /// Paths are looked up among those that there are (README.md, "What the page reads"): none of them names a file.
 /// Several threads may ask at once.

@@ -28,7 +28,7 @@ bool is_this_computer(const std::string& host)
 
 void set_headers(httplib::Response& response)
 {
-    response.set_header("Content-Security-Policy", std::string{view_policy()});
+    response.set_header("Content-Security-Policy", std::string{server_policy()});
     response.set_header("X-Content-Type-Options", "nosniff");
     response.set_header("Cross-Origin-Resource-Policy", "same-origin");
     response.set_header("Cross-Origin-Opener-Policy", "same-origin");

@@ -1,4 +1,4 @@
-// node build.mjs FOLDER: page.html, one file with all that it needs, and page.csp, the policy that allows its parts alone.
+// node build.mjs FOLDER: page.html, one file with all that it needs, and the policies that allow its parts alone: server.csp, files.csp.
 import { createHash } from "node:crypto";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { build } from "esbuild-wasm";
@@ -24,16 +24,10 @@ const page = readFileSync("index.html", "utf8")
     .replace("/*style*/", () => style)
     .replace("/*script*/", () => script);
 const digest = (part) => `'sha256-${createHash("sha256").update(part).digest("base64")}'`;
-const policy = [
-    "default-src 'none'",
-    `script-src ${digest(script)} 'wasm-unsafe-eval'`,
-    `style-src ${digest(style)}`,
-    "img-src 'self' data:",
-    "connect-src 'self'",
-    "base-uri 'none'",
-    "form-action 'none'",
-    "frame-ancestors 'none'",
-];
+const own = `script-src ${digest(script)} 'wasm-unsafe-eval'`;
+const common = ["default-src 'none'", `style-src ${digest(style)}`, "base-uri 'none'", "form-action 'none'"];
 mkdirSync(into, { recursive: true });
 writeFileSync(`${into}/page.html`, page);
-writeFileSync(`${into}/page.csp`, policy.join("; "));
+writeFileSync(`${into}/server.csp`, [...common, own, "img-src 'self' data:", "connect-src 'self'", "frame-ancestors 'none'"].join("; "));
+// An export's data are scripts beside the page; 'self' means no file to some browsers, file: nothing to a page from a server.
+writeFileSync(`${into}/files.csp`, [...common, `${own} 'self' file:`, "img-src 'self' file: data:"].join("; "));

@@ -19,8 +19,10 @@ struct Canopy
 };
 
 /// The plane that the most points lie on with the fewest below it: bench, floor or lawn (Kind::kBench), from the foot
-/// of the camera's perpendicular, `away` as the camera looks. Kind::kNone where no plane within 65 degrees of the
-/// camera's down direction holds a tenth of the points.
+/// of the camera's perpendicular, `away` as the camera looks. Where no plane within 65 degrees of the camera's down
+/// direction holds a tenth of the points, one within 35 degrees of its axis may, for cameras that look straight down
+/// (`away` is then the picture's upper edge); not where more stands before it at the picture's lower edge than at the
+/// upper one: a wall. Kind::kNone otherwise.
 GroundFrame find_ground(const PlantView& view, Arena& arena);
 
 /// Green points above the ground, in groups with gaps of 100 mm between them, numbered from left to right; groups of
