@@ -122,7 +122,9 @@ constexpr double kBaselineShare = 0.125;
 constexpr double kHole = 2;
 
 /// Cells without a point between two points of a row belong to the farther of the two, which is what the right camera
-/// does not see behind the nearer one; or to the leaf that both are of.
+/// does not see behind the nearer one; or to the leaf that both are of. That is what lies to the left of something
+/// nearer. To the right of it the right camera sees more than the left one: what has no point there is hidden by
+/// nothing, and is leaf where both are.
 void find_gaps(const PlantView& view, const Smoother& smoother, std::span<LeafGaps> gaps)
 {
     const int widest = view.point.width / 16;
@@ -136,8 +138,9 @@ void find_gaps(const PlantView& view, const Smoother& smoother, std::span<LeafGa
             if (last >= 0 && missing > 0 && missing <= widest) {
                 const int left = smoother.leaf_at(last, row), right = smoother.leaf_at(column, row);
                 const std::int32_t before = view.point.at(last, row);
-                const int farther = smoother.z_mm(before) >= smoother.z_mm(point) ? left : right;
-                if (farther != Leaves::kNone) {
+                const bool nearer_right = smoother.z_mm(before) >= smoother.z_mm(point);
+                const int farther = nearer_right ? left : right;
+                if (farther != Leaves::kNone && (nearer_right || left != Leaves::kNone)) {
                     LeafGaps& gap = gaps[static_cast<std::size_t>(farther - 1)];
                     const double near = std::min(smoother.z_mm(before), smoother.z_mm(point));
                     const double step = std::fabs(smoother.z_mm(before) - smoother.z_mm(point));

@@ -71,6 +71,12 @@ struct Trunk
         const Vec3 from = point - middle;
         return length(from - dot(from, up) * up);
     }
+    /// mm, more where the base is: it is nearer to the plant's middle, most leaves hang down from it, and lobes meet
+    /// there. None of the three is true of all leaves.
+    double base_at(const LeafShape::End& end, double length_mm) const
+    {
+        return dot(end.point, up) / 2 + (end.sinus ? length_mm / 2 : 0) - away_from(end.point);
+    }
 };
 
 void measure_leaf(const PlantView& view, const Leaves& leaves, const LeafSurfaces& surfaces, const LeafBorder& border,
@@ -96,9 +102,7 @@ void measure_leaf(const PlantView& view, const Leaves& leaves, const LeafSurface
         shape.frame.normal = -1.0 * shape.frame.normal;
         shape.curvature_per_mm = -shape.curvature_per_mm;
     }
-    const bool turned = shape.ends[0].sinus != shape.ends[1].sinus
-                            ? shape.ends[1].sinus
-                            : trunk.away_from(shape.ends[1].point) < trunk.away_from(shape.ends[0].point);
+    const bool turned = trunk.base_at(shape.ends[1], shape.length_mm) > trunk.base_at(shape.ends[0], shape.length_mm);
     const Vec3 base = shape.ends[turned ? 1 : 0].point, tip = shape.ends[turned ? 0 : 1].point;
     const Vec3 points_to = (turned ? -1.0 : 1.0) * shape.frame.along;
     put(shape.frame.centre, leaf.centre_mm);

@@ -7,10 +7,11 @@ namespace {
 
 /// So many cells from where its leaf ends a cell is of the rim.
 constexpr int kRim = 3;
-/// What the rim adds to a leaf seen along its surface; less by the squared sine of the slant of the others.
-constexpr double kRimAdds = 0.8;
+/// So much of itself the rim adds to a leaf seen along its surface, and by the squared sine of the slant to others. 0.8
+/// fits rendered leaves best, nothing flat ones.
+constexpr double kRimAdds = 0.7;
 /// A cell without a point sees so much of the leaf, taken by the mean of those with one.
-constexpr double kGapSees = 1.25;
+constexpr double kGapSees = 1.4;
 /// Fruit, stems and pots among the leaves: of what is found, one standard deviation.
 constexpr double kNoLeafSd = 0.05;
 
