@@ -343,6 +343,34 @@ TEST(Leaves, AHighlightIsOfItsBlade)
     EXPECT_GT(scene.overlap(1), 0.99);
 }
 
+TEST(Leaves, AreNeitherPaleStemsNorAGreenishPot)
+{
+    Scene scene;
+    // Of one light; a pot whose glaze passes for green.
+    constexpr Rgb8 kStem{100, 138, 70}, kGlaze{62, 90, 74};
+    scene.paint(1, ellipse(230, 150, 70, 45), plane(620, 0.1, 0.3))
+        .paint(2, ellipse(410, 150, 70, 45), plane(620, -0.1, 0.3))
+        .paint(3, box(315, 120, 325, 330), plane(640, 0, 0), kStem)
+        .paint(4, box(260, 345, 380, 385), plane(640, 0, 0), kGlaze);
+    scene.look();
+    EXPECT_NE(scene.leaf_of(1), 0);
+    EXPECT_NE(scene.leaf_of(2), 0);
+    EXPECT_EQ(scene.leaf_of(3), 0);
+    EXPECT_EQ(scene.leaf_of(4), 0);
+    EXPECT_EQ(scene.plant_of(3), 1);
+}
+
+TEST(Leaves, MayBeNarrow)
+{
+    Scene scene;
+    // Blades of grass: one is paler than the others.
+    for (int name = 1; name <= 6; ++name)
+        scene.paint(name, ellipse(100 + 70 * name, 200, 7, 120), plane(620, 0.1, 0.2),
+                    name == 3 ? Rgb8{96, 138, 66} : kGreen);
+    scene.look();
+    EXPECT_EQ(scene.leaves.leaf_count, 6);
+}
+
 TEST(Plants, AreToldApartByGapsAndNumberedFromLeftToRight)
 {
     Scene scene;

@@ -3,6 +3,7 @@
 #include "basins.h"
 #include "dicot/plant/canopy.h"
 #include "merge.h"
+#include "stems.h"
 #include "surface.h"
 
 #include <algorithm>
@@ -101,6 +102,7 @@ Result<Leaves> segment_leaves(const PlantView& view, std::span<const PlantBox> b
     const Surface surface = surface_of(view, canopy, arena);
     Pieces pieces = cut_at_necks(surface, arena);
     merge_pieces(surface, pieces, arena);
+    drop_stems(view, surface, pieces, arena);
     const std::span<Blade> blades = arena.take<Blade>(static_cast<std::size_t>(pieces.count));
     if (arena.overrun())
         return too_little();
