@@ -19,6 +19,7 @@ namespace {
 /// is mostly one that is seen along its surface. Stems hold less chlorophyll than blades. The form follows a logistic
 /// regression on the rendered plants, species left out in turn.
 constexpr double kNarrow = 4, kLeastSlope = 0.2, kPale = 10, kPaler = 1.5, kNarrower = 1.2;
+constexpr double kPalest = 0.5; ///< more, and it is light on a blade
 /// Whatever its form, a piece is no leaf of a plant that has another hue: a pot's glaze. In per cent of the sum of the
 /// channels: so much less green, and so much less red than blue.
 constexpr double kLessGreen = 7, kLessRed = 10;
@@ -81,7 +82,7 @@ bool is_leaf(const Form& form, const Usual& usual, double focal_px)
         return false;
     const double narrower = form.narrowness() * usual.count / usual.narrowness;
     return greener > -kPaler || narrower < kNarrower ||
-           narrower < kNarrow * (form.slope_across(focal_px) + kLeastSlope) * (1 + greener / kPale);
+           narrower < kNarrow * (form.slope_across(focal_px) + kLeastSlope) * std::max(kPalest, 1 + greener / kPale);
 }
 
 } // namespace
