@@ -13,7 +13,7 @@ namespace dicot {
 namespace {
 
 constexpr int kLeastPoints = 120; ///< of a leaf
-constexpr int kLeastShare = 100;  ///< of the points of the plant's largest leaf, one in so many: smaller are crumbs
+constexpr int kLeastShare = 50;   ///< of the points of the plant's largest leaf, one in so many: smaller are crumbs
 
 /// A piece of the surface, before it has a leaf's number.
 struct Blade

@@ -12,12 +12,12 @@ namespace {
 
 /// The odds that two pieces in contact are one blade:
 ///
-///     neck * near * sqrt(roughness + 1/2) / (misfit + 1/2)^2
+///     neck * near * sqrt(length * (roughness + 1/2)) / (misfit + 1/2)^2
 ///
 /// neck: half width of the widest contact by that of the narrower piece; near: pairs of cells not more than kReachPx
-/// apart by the points of the smaller piece; misfit and roughness (quadric.h) in widths of a pixel. The form follows a
-/// logistic regression on the rendered plants, species left out in turn; its exponents are rounded, so that no
-/// logarithm is needed.
+/// apart by the points of the smaller piece; length: of the contact, by the side of a square as large as the smaller
+/// piece; misfit and roughness (quadric.h) in widths of a pixel. The form follows a logistic regression on the rendered
+/// plants, species left out in turn; its exponents are rounded, so that no logarithm is needed.
 constexpr double kLeastOdds = 0.22;
 /// Without contact (a petiole in front, a hole) more has to agree.
 constexpr double kMostGapMisfitPx = 2.6;
@@ -37,6 +37,7 @@ struct Border
 {
     std::int32_t near = 0;   ///< pairs of cells
     std::int32_t widest = 0; ///< of the contact, in fifths of a px; 0: none
+    std::int32_t length = 0; ///< of the contact, pairs of cells
     float odds = 0;
 };
 
@@ -61,13 +62,13 @@ public:
             between.odds = static_cast<float>(one ? kLeastOdds * (1 + 1e-3 / (off + 0.1)) : 0);
             return;
         }
-        constexpr double kSlackPx = 0.6, kLeastNeck = 0.25; // narrower is a petiole, or two that touch
+        constexpr double kSlackPx = 0.6;
         const double neck =
             (double(between.widest) / Surface::kUnit + kSlackPx) / std::min(a.half_width_px, b.half_width_px);
-        const double near = between.near / std::min(a.shape.count(), b.shape.count());
-        const double odds =
-            neck * near * std::sqrt(own_roughness(a.shape, b.shape) + 0.5) / ((off + 0.5) * (off + 0.5));
-        between.odds = static_cast<float>(neck < kLeastNeck ? 0 : odds);
+        const double points = std::min(a.shape.count(), b.shape.count());
+        const double long_and_rough = between.length / std::sqrt(points) * (own_roughness(a.shape, b.shape) + 0.5);
+        between.odds =
+            static_cast<float>(neck * between.near / points * std::sqrt(long_and_rough) / ((off + 0.5) * (off + 0.5)));
     }
 
     void weigh_all()
@@ -106,6 +107,7 @@ public:
             Border& to = border(j, k);
             to.near += from.near;
             to.widest = std::max(to.widest, from.widest);
+            to.length += from.length;
             weigh(j, k);
         }
     }
@@ -182,9 +184,11 @@ void find_borders(const Surface& surface, const Pieces& pieces, Merger& merger)
                     ++between.near;
                     const bool contact = k == 1 && (dx == 0 || dy == 0) &&
                                          (surface.torn[i] & (dx == 1 ? Surface::kRight : Surface::kBelow)) == 0;
-                    if (contact)
+                    if (contact) {
                         between.widest = std::max<std::int32_t>(between.widest,
                                                                 std::min(surface.inside_px5[i], surface.inside_px5[j]));
+                        ++between.length;
+                    }
                 }
         }
 }

@@ -13,7 +13,7 @@ namespace {
 /// pixel; or where it is steeper than any blade that a camera sees.
 constexpr float kJumpPx = 4, kSteepPx = 12;
 constexpr int kBridgePx = 5;
-constexpr float kOffsetPx = 4;
+constexpr float kOffsetPx = 2.5F;
 constexpr int kRun = 5, kLeastRun = 3;
 
 /// Step in depth from one cell to another, in widths of a pixel.
