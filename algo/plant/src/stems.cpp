@@ -20,7 +20,7 @@ namespace {
 /// regression on the rendered plants, species left out in turn.
 constexpr double kNarrow = 4, kLeastSlope = 0.2, kPale = 10, kPaler = 1.5, kNarrower = 1.2;
 /// Whatever its form, a piece is no leaf of a plant that has another hue: a pot's glaze. In per cent of the sum of the
-/// channels: so much less green, and so much less red than blue.
+/// channels: less of green, and less of red minus blue, by so much.
 constexpr double kLessGreen = 7, kLessRed = 10;
 
 /// Sums over points.
