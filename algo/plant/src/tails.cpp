@@ -23,8 +23,8 @@ void measure_from_core(const Surface& surface, const Pieces& pieces, std::span<c
     const auto below = static_cast<std::size_t>(surface.width);
     for (std::size_t i = 0; i < surface.cells(); ++i) {
         const std::int32_t piece = pieces.piece[i];
-        const bool core = piece != 0 && 100 * surface.inside_px5[i] >=
-                                            kCorePercent * half_width_px5[static_cast<std::size_t>(piece)];
+        const bool core =
+            piece != 0 && 100 * surface.inside_px5[i] >= kCorePercent * half_width_px5[static_cast<std::size_t>(piece)];
         from_core[i] = core ? std::int16_t{0} : INT16_MAX;
     }
     bool nearer = true;
@@ -110,8 +110,7 @@ void cut_tails(const Surface& surface, Pieces& pieces, Arena& arena)
         if (root != i)
             pieces.piece[i] = pieces.piece[root];
         else
-            pieces.piece[i] =
-                from_core[i] >= kLeastPoints && pieces.count < kMostPieces ? ++pieces.count : 0;
+            pieces.piece[i] = from_core[i] >= kLeastPoints && pieces.count < kMostPieces ? ++pieces.count : 0;
     }
     arena.rewind(mark);
 }
