@@ -10,9 +10,9 @@
 namespace dicot {
 namespace {
 
-/// A blade tapers: from where it has a quarter of its width left, its tip ends within two half widths even if it is
-/// eight times as long as wide. What goes on beyond is a petiole.
-constexpr int kCorePercent = 25, kReachPercent = 220;
+/// A petiole begins two half widths behind where its blade has a quarter of its width left, and is as long again: a tip
+/// ends before, even if its blade is sixteen times as long as wide.
+constexpr int kCorePercent = 25, kReachPercent = 220, kLeastLengths = 2;
 constexpr int kLeastPoints = 120;
 
 /// Distances within each piece to its wide part, in fifths of a px.
@@ -65,6 +65,7 @@ void cut_tails(const Surface& surface, Pieces& pieces, Arena& arena)
     const std::size_t mark = arena.used();
     const std::span<std::int32_t> half_width = arena.take<std::int32_t>(static_cast<std::size_t>(pieces.count) + 1);
     const std::span<std::int16_t> from_core = arena.take<std::int16_t>(surface.cells());
+    const std::span<std::int16_t> points = arena.take<std::int16_t>(surface.cells());
     const std::span<std::int32_t> parent = arena.take<std::int32_t>(surface.cells());
     if (arena.overrun())
         return;
@@ -96,21 +97,24 @@ void cut_tails(const Surface& surface, Pieces& pieces, Arena& arena)
     // A root comes before the rest of its tail: its cell holds the number, after those have been counted.
     for (std::size_t i = 0; i < surface.cells(); ++i)
         parent[i] = in_tail(i) ? tails.root(static_cast<std::int32_t>(i)) : -1;
-    std::ranges::fill(from_core, std::int16_t{0});
-    for (std::size_t i = 0; i < surface.cells(); ++i)
-        if (parent[i] >= 0 && surface.cell[i] == Surface::kPoint) {
-            std::int16_t& points = from_core[static_cast<std::size_t>(parent[i])];
-            points = std::min<std::int16_t>(points, INT16_MAX - 1);
-            ++points;
-        }
+    std::ranges::fill(points, std::int16_t{0});
+    for (std::size_t i = 0; i < surface.cells(); ++i) {
+        if (parent[i] < 0)
+            continue;
+        const auto root = static_cast<std::size_t>(parent[i]);
+        from_core[root] = std::max(from_core[root], from_core[i]);
+        if (surface.cell[i] == Surface::kPoint && points[root] < kLeastPoints)
+            ++points[root];
+    }
     for (std::size_t i = 0; i < surface.cells(); ++i) {
         if (parent[i] < 0)
             continue;
         const auto root = static_cast<std::size_t>(parent[i]);
         if (root != i)
             pieces.piece[i] = pieces.piece[root];
-        else
-            pieces.piece[i] = from_core[i] >= kLeastPoints && pieces.count < kMostPieces ? ++pieces.count : 0;
+        else if (100 * from_core[i] >
+                 kLeastLengths * kReachPercent * half_width[static_cast<std::size_t>(pieces.piece[i])])
+            pieces.piece[i] = points[i] >= kLeastPoints && pieces.count < kMostPieces ? ++pieces.count : 0;
     }
     arena.rewind(mark);
 }
