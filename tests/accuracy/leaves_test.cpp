@@ -183,10 +183,11 @@ TEST(LeavesOfRenderedPlants, AreFound)
                 share(c.by_both_found, c.by_both), share(c.found, c.leaves), share(c.found_of_pixels, c.leaves),
                 share(c.coverable, c.leaves), share(c.surplus, c.leaves), share(c.split, c.leaves),
                 all_plants().seconds);
-    EXPECT_GE(share(c.by_both_found, c.by_both), 83);
-    EXPECT_GE(share(c.found, c.leaves), 76);
-    EXPECT_LE(share(c.surplus, c.leaves), 30);
-    EXPECT_LE(share(c.split, c.leaves), 14);
+    EXPECT_GE(share(c.by_both_found, c.by_both), 86);
+    EXPECT_GE(share(c.found, c.leaves), 77);
+    EXPECT_LE(share(c.surplus, c.leaves), 20);
+    EXPECT_LE(share(c.none, c.leaves), 10);
+    EXPECT_LE(share(c.split, c.leaves), 13);
 }
 
 TEST(GroundOfRenderedPlants, IsLevel)

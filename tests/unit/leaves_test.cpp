@@ -331,6 +331,16 @@ TEST(Leaves, APetioleJoinsNoBlades)
     EXPECT_GT(scene.overlap(2), 0.9);
 }
 
+TEST(Leaves, EndWhereTheirPetioleGoesOn)
+{
+    Scene scene;
+    scene.paint(1, ellipse(320, 120, 45, 30), plane(620, 0, 0)).paint(2, box(316, 146, 324, 390), plane(620, 0, 0));
+    scene.look();
+    // Two half widths of the petiole may stay: 8 x 66 px of a blade of 4240.
+    EXPECT_GT(scene.overlap(1), 0.85);
+    EXPECT_NE(scene.leaf_of(2), scene.leaf_of(1));
+}
+
 TEST(Leaves, AHighlightIsOfItsBlade)
 {
     Scene scene;

@@ -5,6 +5,7 @@
 #include "merge.h"
 #include "stems.h"
 #include "surface.h"
+#include "tails.h"
 
 #include <algorithm>
 #include <array>
@@ -102,6 +103,7 @@ Result<Leaves> segment_leaves(const PlantView& view, std::span<const PlantBox> b
     const Surface surface = surface_of(view, canopy, arena);
     Pieces pieces = cut_at_necks(surface, arena);
     merge_pieces(surface, pieces, arena);
+    cut_tails(surface, pieces, arena);
     drop_stems(view, surface, pieces, arena);
     const std::span<Blade> blades = arena.take<Blade>(static_cast<std::size_t>(pieces.count));
     if (arena.overrun())

@@ -21,7 +21,7 @@ namespace {
 constexpr double kNarrow = 4, kLeastSlope = 0.2, kPale = 10, kPaler = 1.5, kNarrower = 1.2;
 constexpr double kPalest = 0.5; ///< more, and it is light on a blade
 /// Whatever its form, a piece is no leaf of a plant that has another hue: a pot's glaze. In per cent of the sum of the
-/// channels: so much less green, and so much less red than blue.
+/// channels: less of green, and less of red minus blue, by so much.
 constexpr double kLessGreen = 7, kLessRed = 10;
 
 /// Sums over points.
