@@ -19,6 +19,8 @@ namespace {
 /// piece; misfit and roughness (quadric.h) in widths of a pixel. The form follows a logistic regression on the rendered
 /// plants, species left out in turn; its exponents are rounded, so that no logarithm is needed.
 constexpr double kLeastOdds = 0.22;
+/// Of the two halves of a fold.
+constexpr double kSureOdds = 0.25;
 /// Without contact (a petiole in front, a hole) more has to agree.
 constexpr double kMostGapMisfitPx = 2.6;
 constexpr int kLeastNear = 200;
@@ -38,8 +40,18 @@ struct Border
     std::int32_t near = 0;   ///< pairs of cells
     std::int32_t widest = 0; ///< of the contact, in fifths of a px; 0: none
     std::int32_t length = 0; ///< of the contact, pairs of cells
+    std::int32_t torn = 0;   ///< pairs of cells with a tear between them
     float odds = 0;
 };
+
+/// Two halves of a blade folded at its midrib hang together all along it, which no one surface of second degree fits;
+/// of two blades that overlap, most of what they have in common is a tear.
+bool is_fold(const Border& between, double points)
+{
+    constexpr double kUntorn = 0.75, kLeastLength = 1.2; // of the side of a square as large as the smaller piece
+    return between.length > kUntorn * (between.length + between.torn) &&
+           between.length > kLeastLength * std::sqrt(points);
+}
 
 class Merger
 {
@@ -56,6 +68,10 @@ public:
             return;
         const Piece &a = pieces_[i], &b = pieces_[j];
         const double off = misfit(a.shape, b.shape);
+        if (is_fold(between, std::min(a.shape.count(), b.shape.count()))) {
+            between.odds = static_cast<float>(kSureOdds);
+            return;
+        }
         if (between.widest == 0) {
             // After all contacts, the smoothest first.
             const bool one = off < kMostGapMisfitPx && between.near > kLeastNear;
@@ -108,6 +124,7 @@ public:
             to.near += from.near;
             to.widest = std::max(to.widest, from.widest);
             to.length += from.length;
+            to.torn += from.torn;
             weigh(j, k);
         }
     }
@@ -182,9 +199,11 @@ void find_borders(const Surface& surface, const Pieces& pieces, Merger& merger)
                     Border& between =
                         merger.border(static_cast<std::size_t>(here) - 1, static_cast<std::size_t>(there) - 1);
                     ++between.near;
-                    const bool contact = k == 1 && (dx == 0 || dy == 0) &&
-                                         (surface.torn[i] & (dx == 1 ? Surface::kRight : Surface::kBelow)) == 0;
-                    if (contact) {
+                    if (k != 1 || (dx != 0 && dy != 0))
+                        continue;
+                    if ((surface.torn[i] & (dx == 1 ? Surface::kRight : Surface::kBelow)) != 0)
+                        ++between.torn;
+                    else {
                         between.widest = std::max<std::int32_t>(between.widest,
                                                                 std::min(surface.inside_px5[i], surface.inside_px5[j]));
                         ++between.length;

@@ -11,7 +11,7 @@ constexpr int kRim = 3;
 /// fits rendered leaves best, nothing flat ones.
 constexpr double kRimAdds = 0.7;
 /// A cell without a point sees so much of the leaf, taken by the mean of those with one.
-constexpr double kGapSees = 1.4;
+constexpr double kGapSees = 1.8;
 /// Fruit, stems and pots among the leaves: of what is found, one standard deviation.
 constexpr double kNoLeafSd = 0.05;
 
