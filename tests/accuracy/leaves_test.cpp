@@ -185,9 +185,9 @@ TEST(LeavesOfRenderedPlants, AreFound)
                 all_plants().seconds);
     EXPECT_GE(share(c.by_both_found, c.by_both), 86);
     EXPECT_GE(share(c.found, c.leaves), 77);
-    EXPECT_LE(share(c.surplus, c.leaves), 20);
+    EXPECT_LE(share(c.surplus, c.leaves), 18);
     EXPECT_LE(share(c.none, c.leaves), 10);
-    EXPECT_LE(share(c.split, c.leaves), 13);
+    EXPECT_LE(share(c.split, c.leaves), 12);
 }
 
 TEST(GroundOfRenderedPlants, IsLevel)
