@@ -103,7 +103,8 @@ void drop_stems(const PlantView& view, const Surface& surface, Pieces& pieces, A
         if (surface.cell[i] != Surface::kPoint)
             continue;
         const auto point = static_cast<std::size_t>(surface.point(view, i));
-        form.add(double(i % width), double(i / width), double{surface.inverse[i]}, view.cloud.points[point].colour);
+        const std::size_t column = i % width, row = i / width;
+        form.add(double(column), double(row), double{surface.inverse[i]}, view.cloud.points[point].colour);
         form.plant = surface.plant[i];
     }
     std::array<Usual, UINT8_MAX + 1> usual{};
