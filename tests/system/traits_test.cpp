@@ -239,6 +239,20 @@ TEST_F(Traits, AMissBeforeTheClockWasSetEndsAtTheFirstDate)
     EXPECT_EQ(gap.at("to"), noon(2));
 }
 
+TEST_F(Traits, AnUncertaintyThatTwoSnapshotsDoNotTellIsNotTold)
+{
+    test::ArchiveFolder archive(folder_.path("two"), "bench");
+    archive.done(1, noon(1), folder_.path("day1.drc"));
+    archive.done(2, noon(2), folder_.path("day2.drc"));
+    const ToolRun run = test::run(std::string{DICOT_PROGRAM} + " traits " + folder_.path("two") + " --cache " +
+                                  folder_.path("cache") + " --plot " + folder_.path("plots"));
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_THAT(run.output, AllOf(HasSubstr("plant 1: 2 snapshots"), testing::ContainsRegex("\n  leaves +4\\.0 *\n"),
+                                  Not(HasSubstr("nan"))));
+    for (const auto& plot : fs::directory_iterator(folder_.path("plots")))
+        EXPECT_THAT(text_of(plot), Not(testing::ContainsRegex("[\" ,]-?nan"))) << plot;
+}
+
 TEST_F(Traits, ATextThatASpreadsheetWouldRunIsGuardedAndANumberIsNot)
 {
     test::ArchiveFolder archive(folder_.path("odd"), "bench");
