@@ -44,6 +44,9 @@ public:
         return folder;
     }
 
+    /// Of the slots that are added from now on.
+    void believe_clock(const std::string& clock) { clock_ = clock; }
+
 private:
     std::filesystem::path folder_of(int sequence, const std::string& when) const
     {

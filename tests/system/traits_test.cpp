@@ -222,6 +222,37 @@ TEST_F(Traits, WhatHasNoDateIsGivenNone)
     EXPECT_EQ(test::run(command + "--plot " + folder_.path("plots")).exit_code, 0);
 }
 
+TEST_F(Traits, AMissBeforeTheClockWasSetEndsAtTheFirstDate)
+{
+    test::ArchiveFolder archive(folder_.path("late"), "bench", "UTC", "not set");
+    archive.missed(1, "1970-01-01T00:02:00Z", "the left camera is gone");
+    archive.believe_clock("set");
+    archive.done(2, noon(2), folder_.path("day1.drc"));
+    archive.done(3, noon(3), folder_.path("day2.drc"));
+    const std::string command =
+        std::string{DICOT_PROGRAM} + " traits " + folder_.path("late") + " --cache " + folder_.path("cache") + " ";
+    EXPECT_THAT(test::run(command).output,
+                AllOf(HasSubstr("gap between 2026-06-02T10:00:00Z and 2026-06-02T10:00:00Z: 1 slot"),
+                      Not(HasSubstr("without a date")), Not(HasSubstr("1970"))));
+    const json gap = json::parse(test::run(command + "--json").output).at("boards").at(0).at("gaps").at(0);
+    EXPECT_EQ(gap.at("from"), noon(2));
+    EXPECT_EQ(gap.at("to"), noon(2));
+}
+
+TEST_F(Traits, AnUncertaintyThatTwoSnapshotsDoNotTellIsNotTold)
+{
+    test::ArchiveFolder archive(folder_.path("two"), "bench");
+    archive.done(1, noon(1), folder_.path("day1.drc"));
+    archive.done(2, noon(2), folder_.path("day2.drc"));
+    const ToolRun run = test::run(std::string{DICOT_PROGRAM} + " traits " + folder_.path("two") + " --cache " +
+                                  folder_.path("cache") + " --plot " + folder_.path("plots"));
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_THAT(run.output, AllOf(HasSubstr("plant 1: 2 snapshots"), testing::ContainsRegex("\n  leaves +4\\.0 *\n"),
+                                  Not(HasSubstr("nan"))));
+    for (const auto& plot : fs::directory_iterator(folder_.path("plots")))
+        EXPECT_THAT(text_of(plot), Not(testing::ContainsRegex("[\" ,]-?nan"))) << plot;
+}
+
 TEST_F(Traits, ATextThatASpreadsheetWouldRunIsGuardedAndANumberIsNot)
 {
     test::ArchiveFolder archive(folder_.path("odd"), "bench");

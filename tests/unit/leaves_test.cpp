@@ -1,6 +1,7 @@
 // Drawn scenes: ellipses of flat and folded blades above a bench, seen by a camera 400 mm above it.
 #include "dicot/plant/canopy.h"
 #include "dicot/plant/leaves.h"
+#include "lent_arena.h"
 
 #include <gtest/gtest.h>
 
@@ -445,6 +446,20 @@ TEST(Leaves, AreRefusedWithTooLittleMemory)
         ASSERT_FALSE(refused.ok());
         EXPECT_EQ(refused.status().fault(), Fault::kConfig);
     }
+}
+
+TEST(Leaves, FitTheStatedMemoryWhereManyPointsShareAPixel)
+{
+    std::vector<CloudPoint> points;
+    for (int column = 0; column < 750; ++column)
+        points.insert(points.end(), 2000, {column * 10, 0, 6000, kGreen, 200});
+    test::LentArena grid(PlantView::kMostCells * sizeof(std::int32_t) + (std::size_t{1} << 20));
+    const PlantView view = plant_view({points, {100, 14, {0, 0, 0}}}, grid.arena()).value();
+    ASSERT_FALSE(view.too_few);
+    ASSERT_LT(view.point.width * view.point.height, 2000);
+    test::LentArena table(segment_leaves_bytes(view));
+    EXPECT_TRUE(segment_leaves(view, {}, table.arena()).ok());
+    EXPECT_LE(table.arena().peak(), segment_leaves_bytes(view));
 }
 
 } // namespace

@@ -88,7 +88,7 @@ public:
     }
 
     /// Counts, for each patch that is not large, where a large one is near: within 24 px along a row or a column, and
-    /// within a thirtieth of the depth.
+    /// within a fifteenth of the depth.
     void link()
     {
         constexpr int kReachPx = 24, kDepthShare = 15;

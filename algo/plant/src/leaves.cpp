@@ -75,7 +75,7 @@ void number_leaves(std::span<Blade> blades, Leaves& leaves)
 std::size_t segment_leaves_bytes(const PlantView& view)
 {
     // Lists of the points, layers of the cells, and what is of one size for any cloud.
-    constexpr std::size_t kPointBytes = 24, kCellBytes = 22, kAnyBytes = std::size_t{8} << 20;
+    constexpr std::size_t kPointBytes = 32, kCellBytes = 22, kAnyBytes = std::size_t{8} << 20;
     constexpr int kFrame = 2 * Surface::kMargin;
     const std::size_t cells =
         (static_cast<std::size_t>(view.point.width) + kFrame) * (static_cast<std::size_t>(view.point.height) + kFrame);

@@ -47,14 +47,15 @@ public:
         const std::int64_t at_us = slot.row.due_us.value_or(slot.row.began_us);
         if (!slot.traits)
             missing(1, slot.gap);
-        if (is_dated(slot.row)) {
-            if (slot.traits)
-                close(at_us);
-            last_us_ = at_us;
-            if (slot.traits || !from_known_) {
-                from_us_ = at_us;
-                from_known_ = true;
-            }
+        if (!is_dated(slot.row))
+            return;
+        if (!from_known_)
+            from_us_ = at_us;
+        from_known_ = true;
+        last_us_ = at_us;
+        if (slot.traits) {
+            close(at_us);
+            from_us_ = at_us;
         }
     }
 

@@ -32,8 +32,12 @@ std::string series_line(const TraitSeries& series)
         return "";
     const double scale = series.column->drawn_units;
     char line[200];
-    std::snprintf(line, sizeof line, "%9.1f +- %-7.1f", scale * newest->value.value, scale * newest->value.sd);
-    std::string text = "  " + padded(series.column->words, 34) + line + padded(series.column->drawn_unit, 4);
+    std::snprintf(line, sizeof line, "%9.1f", scale * newest->value.value);
+    std::string text = "  " + padded(series.column->words, 34) + line;
+    line[0] = '\0'; // two samples without sd leave none
+    if (std::isfinite(newest->value.sd))
+        std::snprintf(line, sizeof line, " +- %.1f", scale * newest->value.sd);
+    text += padded(line, 11) + padded(series.column->drawn_unit, 4);
     if (is_rate_known(*newest)) {
         std::snprintf(line, sizeof line, "%+9.1f +- %-7.1f a day", scale * newest->rate_per_day.value,
                       scale * newest->rate_per_day.sd);
