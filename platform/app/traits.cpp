@@ -20,7 +20,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <system_error>
 
 namespace dicot::app {
 namespace {
@@ -107,6 +109,9 @@ Status try_outputs(const TraitsWords& words)
 {
     if (!words.csv.empty() && words.csv != kStandardOutput)
         for (const std::string& table : {words.csv, beside_table(words.csv)}) {
+            std::error_code unknown;
+            if (std::filesystem::is_fifo(table, unknown)) // who reads it would see an end here already
+                continue;
             OutputFile can_be_written;
             TRY(can_be_written.open(table.c_str()));
         }

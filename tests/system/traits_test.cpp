@@ -13,6 +13,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
 #include <vector>
@@ -251,6 +252,16 @@ TEST_F(Traits, AnUncertaintyThatTwoSnapshotsDoNotTellIsNotTold)
                                   Not(HasSubstr("nan"))));
     for (const auto& plot : fs::directory_iterator(folder_.path("plots")))
         EXPECT_THAT(text_of(plot), Not(testing::ContainsRegex("[\" ,]-?nan"))) << plot;
+}
+
+TEST_F(Traits, WhoReadsThroughAPipeGetsTheWholeTable)
+{
+    const std::string pipe = folder_.path("pipe"), whole = folder_.path("whole.csv");
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    const ToolRun run = test::run("{ cat " + pipe + " > " + whole + " & timeout -s KILL 60 " + words("--csv " + pipe) +
+                                  "; code=$?; wait; exit $code; }");
+    EXPECT_EQ(run.exit_code, 0) << run.output;
+    EXPECT_EQ(rows_of(text_of(whole)).size(), 8U) << run.output;
 }
 
 TEST_F(Traits, ATextThatASpreadsheetWouldRunIsGuardedAndANumberIsNot)
