@@ -7,6 +7,7 @@
 store /vm/store
 # mtp-tools read all devices that there are: QEMU's waits for its turn.
 elsewhere() { echo "$1" >/sys/bus/usb/devices/2-1/authorized; }
+await 60 test -f /sys/bus/usb/devices/2-1/product
 elsewhere 0
 /lib/systemd/systemd-udevd --daemon
 udevadm trigger
